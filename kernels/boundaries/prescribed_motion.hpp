@@ -19,6 +19,57 @@ struct RigidPlace {
   }
 };
 
+/// How a rigid motion moves at an instant.
+struct RigidRates {
+  RigidPlace at;
+  Vector3 velocity, acceleration;  ///< m/s, m/s2, of the centre
+  Vector3 spin, spin_rate;         ///< rad/s, rad/s2
+
+  KOKKOS_INLINE_FUNCTION Vector3 arm(const Vector3& reference) const { return at(reference) - at.place; }
+
+  KOKKOS_INLINE_FUNCTION Vector3 velocity_of(const Vector3& reference) const {
+    return velocity + cross(spin, arm(reference));
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration_of(const Vector3& reference) const {
+    const Vector3 r = arm(reference);
+    return acceleration + cross(spin_rate, r) + cross(spin, cross(spin, r));
+  }
+};
+
+/// Along the prescribed directions d, by the sum of d d^T.
+KOKKOS_INLINE_FUNCTION Vector3 along_held(const double (&held)[3][3], const Vector3& v) {
+  Vector3 along{{0, 0, 0}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) along[i] += held[i][j] * v[j];
+  return along;
+}
+
+/// How the nodes of a set move at t_n itself along the prescribed directions, in which the scheme has them no
+/// acceleration and the velocity of half a step before.
+struct PrescribedInstant {
+  NodeArrays nodes;
+  RigidRates rates;
+  double held[3][3];
+  bool begun;  ///< false at a run's first instant: the nodes have the velocities that they begin with
+
+  /// m/s, of a node that has the velocity v, held directions half a step before or at t_n
+  KOKKOS_INLINE_FUNCTION Vector3 velocity_change(int n, const Vector3& v) const {
+    if (!begun) return {{0, 0, 0}};
+    return along_held(held, rates.velocity_of(row(nodes.reference, n)) - v);
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration(int n) const {
+    return along_held(held, rates.acceleration_of(row(nodes.reference, n)));
+  }
+
+  /// J, by how much kinetic energy at t_n is above that of half a step before
+  KOKKOS_INLINE_FUNCTION double energy_change(int n) const {
+    const Vector3 before = along_held(held, row(nodes.velocity, n)), now = before + velocity_change(n, before);
+    return 0.5 * nodes.mass(n) * (dot(now, now) - dot(before, before));
+  }
+};
+
 /// Gives the nodes of a set, held in the prescribed directions, the velocity along these that brings them where the
 /// rigid motion will be at the next instant, so that no error adds up; and counts the work that this takes: of a node
 /// with mass m and, all along these directions, velocity v and force F at t_n
@@ -34,71 +85,81 @@ struct PrescribedMotion {
   double step;        ///< s
   double held[3][3];  ///< sum of d d^T over the prescribed directions d
 
-  KOKKOS_INLINE_FUNCTION Vector3 prescribed(const Vector3& v) const {
-    Vector3 along{{0, 0, 0}};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) along[i] += held[i][j] * v[j];
-    return along;
-  }
+  KOKKOS_INLINE_FUNCTION Vector3 prescribed(const Vector3& v) const { return along_held(held, v); }
 
-  /// m/s, what the step to come has along the prescribed directions
-  KOKKOS_INLINE_FUNCTION Vector3 next_velocity(const int n) const {
-    const NodeArrays& all = force.nodes;
-    return prescribed((1.0 / step) * (next()(row(all.reference, n)) - row(all.position, n)));
-  }
+  KOKKOS_INLINE_FUNCTION Vector3 acting(const int n) const { return force(n) + force.nodes.mass(n) * gravity; }
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
     const int n = nodes(k);
     const NodeArrays& all = force.nodes;
     const double mass = all.mass(n);
     const Vector3 before = prescribed(row(all.velocity, n));
-    const Vector3 now = next_velocity(n);
-    const Vector3 acting = force(n) + mass * gravity;
-    work(k) += 0.5 * mass * (dot(now, now) - dot(before, before)) - dot(acting, lag * before + (0.5 * step) * now);
+    const Vector3 now = prescribed((1.0 / step) * (next()(row(all.reference, n)) - row(all.position, n)));
+    work(k) += 0.5 * mass * (dot(now, now) - dot(before, before)) - dot(acting(n), lag * before + (0.5 * step) * now);
     for (int i = 0; i < 3; ++i) all.velocity(n, i) += now[i] - before[i];
   }
 };
 
-/// The work done so far: what was counted until the step before, and the part of the present forces that belongs to it.
+/// The work done so far: what was counted until the step before, and what of the present forces and of the velocity at
+/// t_n belongs to it; and that velocity's part of the kinetic energy, which the nodes' own account has of half a step
+/// before.
 struct PrescribedWork {
-  static constexpr int values = 1;
+  static constexpr int values = 2;
   PrescribedMotion motion;
+  PrescribedInstant instant;
 
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const int n = motion.nodes(k);
-    const Vector3 acting = motion.force(n) + motion.force.nodes.mass(n) * motion.gravity;
-    sum[0] += motion.work(k) - motion.lag * dot(acting, motion.prescribed(row(motion.force.nodes.velocity, n)));
+    const Vector3 before = motion.prescribed(row(motion.force.nodes.velocity, n));
+    const double kinetic = instant.energy_change(n);
+    sum[0] += motion.work(k) - motion.lag * dot(motion.acting(n), before) + kinetic;
+    sum[1] += kinetic;
   }
 };
 
-/// The force that moves the set, N: of a node m a - F along the prescribed directions, with a as follows.
+/// The force that moves the set, N: of a node m a - F along the prescribed directions.
 struct PrescribedReaction {
   static constexpr int values = 3;
-  PrescribedMotion motion;  ///< of the step to come
-
-  /// m/s2, along the prescribed directions: (v(n+1/2) - v(n-1/2)) / (t_(n+1/2) - t_(n-1/2))
-  KOKKOS_INLINE_FUNCTION Vector3 acceleration(int n) const {
-    const Vector3 change = motion.next_velocity(n) - motion.prescribed(row(motion.force.nodes.velocity, n));
-    return (1.0 / (motion.lag + 0.5 * motion.step)) * change;
-  }
+  PrescribedMotion motion;
+  PrescribedInstant instant;
 
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const int n = motion.nodes(k);
-    const double mass = motion.force.nodes.mass(n);
-    const Vector3 force = mass * acceleration(n) - motion.prescribed(motion.force(n) + mass * motion.gravity);
+    const Vector3 force = motion.force.nodes.mass(n) * instant.acceleration(n) - motion.prescribed(motion.acting(n));
     for (int i = 0; i < 3; ++i) sum[i] += force[i];
   }
 };
 
-/// How nodes accelerate along the prescribed directions, in which the scheme's own accelerations are 0.
-struct PrescribedAcceleration {
-  PrescribedReaction reaction;
-  int first;                        ///< of the set in `acceleration`
-  Array<double* [3]> acceleration;  ///< m/s2, of all sets
+/// What the scheme's velocities, half a step before, and accelerations of driven nodes lack at t_n.
+struct PrescribedChange {
+  PrescribedInstant instant;
+  Array<const int*> nodes;
+  int first;                  ///< of the set in `change`
+  Array<double* [6]> change;  ///< m/s and m/s2, of all sets
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
-    const Vector3 own = reaction.acceleration(reaction.motion.nodes(k));
-    for (int i = 0; i < 3; ++i) acceleration(first + k, i) = own[i];
+    const int n = nodes(k);
+    const Vector3 faster = instant.velocity_change(n, row(instant.nodes.velocity, n)), own = instant.acceleration(n);
+    for (int i = 0; i < 3; ++i) {
+      change(first + k, i) = faster[i];
+      change(first + k, 3 + i) = own[i];
+    }
+  }
+};
+
+/// The same in a field of some nodes, three values each.
+struct PrescribedField {
+  PrescribedInstant instant;
+  Array<const int* [2]> wanted;  ///< entry of the field, node
+  bool velocities;               ///< else accelerations
+  Array<double*> field;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    const std::size_t first = 3 * static_cast<std::size_t>(wanted(k, 0));
+    const int n = wanted(k, 1);
+    const Vector3 v{{field(first), field(first + 1), field(first + 2)}};
+    const Vector3 change = velocities ? instant.velocity_change(n, v) : instant.acceleration(n);
+    for (int i = 0; i < 3; ++i) field(first + i) += change[i];
   }
 };
 

@@ -7,6 +7,10 @@ const GOOD_BALANCE = 0.01;
 // Cells across the minor axis b of a patch: b/20 gives an accurate patch, b/10 is acceptable (thesis 3.1.2).
 const ACCURATE_CELLS = 20;
 const ACCEPTABLE_CELLS = 10;
+// Where it is coarser than that.
+const COARSE_ROLLING =
+    " Where a body rolls on it, the contact force also swings as nodes come and go, at the velocity over a cell and" +
+    " its multiples (docs/contact.md, ripples).";
 const MANY = 3; // results: more than these are rows of a table
 
 /** A verdict: what it is on, how good that is, the word for it, and what is said besides, in short and in full. */
@@ -64,7 +68,8 @@ function onMesh({ name, resolution }) {
         `, b/${digits(cells, 2)}`,
         `, cells of ${quantity(resolution.cell, "m", 3)} are b/${digits(cells, 2)} of the minor axis` +
             ` b = ${quantity(resolution.minor_axis, "m", 3)} at ${quantity(resolution.time, "s")}, where the normal` +
-            " force is largest. b/10 is acceptable, b/20 accurate (Zhao and Li 2011, in Yang 2018, 3.1.2).",
+            " force is largest. b/10 is acceptable, b/20 accurate (Zhao and Li 2011, in Yang 2018, 3.1.2)." +
+            (level === "poor" ? COARSE_ROLLING : ""),
     );
 }
 

@@ -97,7 +97,8 @@ Section contact_section() {
           .pairs_of({"penetration in m", "factor", between(0, 1), between(1e-6, 1e6)})
           .otherwise("the penalty is linear"),
       key("damping", &Contact::damping,
-          "share of the critical damping of a contact spring and the masses that it joins")
+          "share of the critical damping of a contact spring and the masses that it joins; 0.1 keeps what slides for "
+          "long on springs from chattering (docs/contact.md)")
           .within(between(0, 1)),
       key("symmetric", &Contact::symmetric,
           "the master's nodes against the slave's faces as well, each with half the stiffness; neither surface then "

@@ -17,8 +17,9 @@ Section element_set_section() {
       key("part", &ElementSet::part, "whose elements; parts of tracks count").names(whole_part).needed(),
       key("box", &ElementSet::box,
           "elements whose centre is in it, in the scene's axes with the part at its `position`, undeformed, before any "
-          "`close_gap`; the sides count as inside")
+          "`close_gap`; the sides count as inside; it may be as large as you like")
           .in("m")
+          .within(between(-1e9, 1e9))
           .otherwise("none: give `position`"),
       key("position", &ElementSet::position,
           "instead of a box: the element in which this place lies, in the same axes; where it lies in none, that with "

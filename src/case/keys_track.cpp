@@ -16,8 +16,9 @@ Section node_set_section() {
       key("part", &NodeSet::part, "whose nodes").names(whole_part).needed(),
       key("box", &NodeSet::box,
           "where they are, in the scene's axes with the part at its `position`, before any `close_gap`; the sides "
-          "count as inside")
+          "count as inside; it may be as large as you like")
           .in("m")
+          .within(between(-1e9, 1e9))
           .otherwise("none: give `position`"),
       key("position", &NodeSet::position, "instead of a box: nodes near this place, in the same axes")
           .in("m")

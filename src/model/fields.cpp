@@ -1,7 +1,9 @@
 #include "model/fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/hexahedron.hpp"
 #include "model/boundaries/ties.hpp"
@@ -104,6 +106,36 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
   return {1, to_vector(result)};
 }
 
+/// Entries of a list of nodes that a prescribed motion moves, with the nodes.
+Array<int* [2]> driven_entries(const PrescribedSet& set, const std::vector<int>& nodes) {
+  std::vector<std::array<int, 2>> entries;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (std::binary_search(set.host_nodes.begin(), set.host_nodes.end(), nodes[i]))
+      entries.push_back({static_cast<int>(i), nodes[i]});
+  return to_device("driven nodes of a field", entries);
+}
+
+bool of_motion(NodeField field) {
+  return field == NodeField::velocity || field == NodeField::acceleration;
+}
+
+/// Driven nodes move as their motion says, of which the scheme has no acceleration.
+void follow_prescribed(const NodalState& nodal, const std::vector<NodeField>& fields, const std::vector<int>& nodes,
+                       const Array<double*>& values) {
+  if (std::none_of(fields.begin(), fields.end(), of_motion)) return;
+  for (const PrescribedSet& set : nodal.prescribed) {
+    const Array<int* [2]> entries = driven_entries(set, nodes);
+    const int count = static_cast<int>(entries.extent(0));
+    for (std::size_t f = 0; f < fields.size() && count > 0; ++f) {
+      if (!of_motion(fields[f])) continue;
+      const std::size_t first = 3 * f * nodes.size();
+      Kokkos::parallel_for("follow_prescribed", Range(0, count),
+                           PrescribedField{prescribed_instant(nodal, set), entries, fields[f] == NodeField::velocity,
+                                           Kokkos::subview(values, std::make_pair(first, first + 3 * nodes.size()))});
+    }
+  }
+}
+
 /// Of the fields one after the other.
 std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<NodeField>& fields,
                                     const std::vector<int>& nodes) {
@@ -117,10 +149,9 @@ std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<N
                    unset_array<double*>("node fields", 3 * fields.size() * nodes.size())};
   std::copy(fields.begin(), fields.end(), fetch.field);
   Kokkos::parallel_for("fetch_nodes", Range(0, count), fetch);
+  follow_prescribed(nodal, fields, nodes, fetch.result);
   return to_vector(fetch.result);
 }
-
-bool follows_masters(NodeField field) { return field == NodeField::velocity || field == NodeField::acceleration; }
 
 /// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.
 void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes,
@@ -154,7 +185,7 @@ std::vector<HostField> node_fields(const NodalState& nodal, const Ties& ties, co
   for (const NodeField field : fields) {
     const auto end = next + static_cast<std::ptrdiff_t>(3 * nodes.size());
     std::vector<double> values(next, end);
-    if (follows_masters(field) && ties.arrays.active()) follow_masters(nodal, ties, field, nodes, values);
+    if (of_motion(field) && ties.arrays.active()) follow_masters(nodal, ties, field, nodes, values);
     result.push_back({3, std::move(values)});
     next = end;
   }

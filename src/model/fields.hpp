@@ -30,7 +30,8 @@ struct HostField {
 enum class NodeField { position, displacement, velocity, acceleration };
 
 /// Motion of the model's nodes listed, at the present instant t_n: position and displacement at t_n, velocity and
-/// acceleration as (v(n-1/2) + v(n+1/2))/2 and a(n). Components: 3, m, m/s, m/s2.
+/// acceleration as (v(n-1/2) + v(n+1/2))/2 and a(n), along the directions of a prescribed motion as that says.
+/// Components: 3, m, m/s, m/s2.
 HostField node_field(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes);
 
 /// Several of them, by one copy from the device.

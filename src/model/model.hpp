@@ -6,7 +6,6 @@
 
 #include "model/assembled_scene.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"
-#include "model/boundaries/prescribed_nodes.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/elements/element_model.hpp"
@@ -23,7 +22,6 @@ class Transport;
 /// What works with one module takes that alone; its header says what a module is.
 struct Model : AssembledScene, NodalState, StepSizes, ElementModel, LoadModel {
   std::shared_ptr<BeamModel> beams;  ///< null in a scene without beams
-  std::vector<PrescribedSet> prescribed;
   NonReflectingEnds ends;
   AbsorbingLayers absorbing;
   Ties ties;

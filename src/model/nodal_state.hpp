@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "kernels/contact/multiplier_arrays.hpp"
 #include "kernels/nodes/shared_nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "model/subcycling.hpp"
 
@@ -22,7 +24,8 @@ struct NodalState {
   int early_shared = 0;   ///< so many of them, the first, know neither multipliers nor prescribed motions
   Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;
-  FreeNodeArrays free_nodes;   ///< of contacts by multipliers; empty without
+  FreeNodeArrays free_nodes;  ///< of contacts by multipliers; empty without
+  std::vector<PrescribedSet> prescribed;
   Vector3 gravity{{0, 0, 0}};  ///< m/s2
   std::shared_ptr<ReductionSpace> reduction_space =
       std::make_shared<ReductionSpace>();  ///< of the account, the monitor, the static start

@@ -49,6 +49,7 @@ class TestPage(unittest.TestCase):
         # Cells of 4 mm on a patch of about 9 mm.
         coarse = r"Mesh in the patch of contact tread: coarse, cells of (3\.[5-9]\d*|4|4\.\d+) mm are b/2\."
         self.assertRegex(text, coarse)
+        self.assertIn("the contact force also swings as nodes come and go", text)
 
     def test_curves_have_the_values_of_the_results(self):
         force = self.page.ask(

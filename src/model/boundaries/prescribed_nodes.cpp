@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case/error.hpp"
@@ -11,6 +12,7 @@
 #include "model/checks/round_part.hpp"
 #include "model/host_copy.hpp"
 #include "model/loads/load_model.hpp"
+#include "model/nodal_state.hpp"
 
 namespace railwave {
 namespace {
@@ -73,6 +75,8 @@ void build_prescribed_motions(const AssembledScene& assembled, std::vector<Presc
     hold_directions(motion, set.held);
     set.centre = centre_of_rotation(assembled, motion, nodes);
     set.nodes = to_device("nodes of prescribed motion", nodes);
+    set.host_nodes = nodes;
+    std::sort(set.host_nodes.begin(), set.host_nodes.end());
     set.work = Array<double*>("work of prescribed motion", nodes.size());
     prescribed.push_back(set);
   }
@@ -90,6 +94,33 @@ RigidPlace place_at(const PrescribedSet& set, double time) {
   }
   turn_by(angle, place.turn);
   return place;
+}
+
+namespace {
+
+/// At a run's first instant there is no time before.
+RigidRates rates_at(const NodalState& nodal, const PrescribedSet& set) {
+  const double before = 1e-3 * nodal.velocity_lag;
+  const CurveRates pace = curve_rates(set.curve, nodal.time, before);
+  const CurveRates moved =
+      set.displacement_curve == nullptr ? CurveRates{0, 0, 0} : curve_rates(set.displacement_curve, nodal.time, before);
+  RigidRates rates{place_at(set, nodal.time), {}, {}, {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    rates.velocity[i] = pace.value * set.motion->velocity[i] + moved.first * set.motion->displacement[i];
+    rates.acceleration[i] = pace.first * set.motion->velocity[i] + moved.second * set.motion->displacement[i];
+    rates.spin[i] = pace.value * set.motion->angular_velocity[i];
+    rates.spin_rate[i] = pace.first * set.motion->angular_velocity[i];
+  }
+  return rates;
+}
+
+}  // namespace
+
+PrescribedInstant prescribed_instant(const NodalState& nodal, const PrescribedSet& set) {
+  PrescribedInstant instant{nodal.nodes, rates_at(nodal, set), {}, nodal.velocity_lag > 0};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) instant.held[i][j] = set.held[i][j];
+  return instant;
 }
 
 PrescribedMotion prescribed_motion(const NodalState& nodal, const PrescribedSet& set, double step) {

@@ -3,9 +3,10 @@
 #include "case/scene.hpp"
 #include "kernels/boundaries/prescribed_motion.hpp"
 #include "kernels/support/spaces.hpp"
-#include "model/nodal_state.hpp"
 
 namespace railwave {
+
+struct NodalState;
 
 /// A node set that moves as a rigid motion says, in the directions that are prescribed. In the others forces move its
 /// nodes. No node is of two such sets.
@@ -17,7 +18,8 @@ struct PrescribedSet {
   double held[3][3] = {};  ///< sum of d d^T over the prescribed directions d
   Vec3 centre{};           ///< m, of the rotation, undeformed
   Array<int*> nodes;
-  Array<double*> work;  ///< J, by node of the set
+  std::vector<int> host_nodes;  ///< ascending
+  Array<double*> work;          ///< J, by node of the set
 };
 
 /// Position and rotation of a set at a time: the integrals over time of velocity and angular velocity, both times their
@@ -27,5 +29,9 @@ RigidPlace place_at(const PrescribedSet& set, double time);
 /// The kernel that moves a set from the present instant by a step; and, with a step of 0, what its account needs.
 /// @param step s
 PrescribedMotion prescribed_motion(const NodalState& nodal, const PrescribedSet& set, double step);
+
+/// How the set moves at the present instant: the derivatives of place_at(), at a kink or jump of a curve those of the
+/// time before it.
+PrescribedInstant prescribed_instant(const NodalState& nodal, const PrescribedSet& set);
 
 }  // namespace railwave

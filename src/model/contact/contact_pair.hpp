@@ -40,6 +40,7 @@ struct ContactPair {
   std::vector<double> segment_stiffness;            ///< N/m, at no penetration
   double growth = 1;                                ///< largest factor on that, at any penetration
   double segment_size = 0;                          ///< m, the largest segment's diagonal
+  double slave_strength = 0;  ///< N, beyond any force that a face of the slave bears: see contact_quantum()
 };
 
 }  // namespace railwave

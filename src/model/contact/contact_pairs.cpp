@@ -31,6 +31,17 @@ const scene::Material& material_of(const AssembledScene& assembled, int element)
   return assembled.scene.materials[assembled.assembly.parts[part_of_element(assembled.assembly, element)].material];
 }
 
+/// m, the longer of a face's diagonals.
+double diagonal_of(const Assembly& assembly, const Face& face) {
+  const auto corner = assembly.face_nodes(face);
+  double longest = 0;
+  for (int k : {0, 1}) {
+    const Vec3 &a = assembly.nodes[corner[k]], &b = assembly.nodes[corner[k + 2]];
+    longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+  }
+  return longest;
+}
+
 /// k = f_SI K A^2 / V of the element under the segment, thesis eq. 2.26d.
 double penalty_stiffness(const AssembledScene& assembled, const Face& face, double scale) {
   const Assembly& assembly = assembled.assembly;
@@ -118,12 +129,11 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
   for (const Face& face : master) {
     pair.segment_stiffness.push_back(
         penalty_stiffness(assembled, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
-    const auto corner = assembly.face_nodes(face);
-    for (int k : {0, 1}) {
-      const Vec3 &a = assembly.nodes[corner[k]], &b = assembly.nodes[corner[k + 2]];
-      pair.segment_size = std::max(pair.segment_size, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-    }
+    pair.segment_size = std::max(pair.segment_size, diagonal_of(assembly, face));
   }
+  for (const Face& face : slave)
+    pair.slave_strength =
+        std::max(pair.slave_strength, 0.1 * diagonal_of(assembly, face) * penalty_stiffness(assembled, face, 1));
 
   const int masters = static_cast<int>(pair.master_nodes.size());
   std::vector<int> first(masters + 1, 0);

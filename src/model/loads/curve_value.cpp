@@ -58,6 +58,34 @@ double curve_value(const scene::Curve* curve, double time) {
   return 1;
 }
 
+namespace {
+
+/// A table is straight in each piece, so that its value goes on from within the piece.
+CurveRates table_rates(const Points& points, double time, double before) {
+  const double within = time - before;
+  const auto after = std::upper_bound(points.begin(), points.end(), within,
+                                      [](double t, const std::array<double, 2>& point) { return t < point[0]; });
+  if (after == points.begin()) return {points.front()[1], 0, 0};
+  if (after == points.end()) return {points.back()[1], 0, 0};
+  const auto& a = *(after - 1);
+  const auto& b = *after;
+  const double slope = (b[1] - a[1]) / (b[0] - a[0]);
+  return {a[1] + slope * (time - a[0]), slope, 0};
+}
+
+}  // namespace
+
+CurveRates curve_rates(const scene::Curve* curve, double time, double before) {
+  if (curve == nullptr || curve->type == scene::CurveType::constant) return {1, 0, 0};
+  if (curve->type == scene::CurveType::table) return table_rates(curve->points, time, before);
+  const double value = curve_value(curve, time), within = time - before - curve->start;
+  if (within < 0 || within >= curve->duration) return {value, 0, 0};
+  const double rate = M_PI / curve->duration, angle = rate * (time - curve->start);
+  if (curve->type == scene::CurveType::half_sine)
+    return {value, rate * std::cos(angle), -rate * rate * std::sin(angle)};
+  return {value, 0.5 * rate * std::sin(angle), 0.5 * rate * rate * std::cos(angle)};
+}
+
 double curve_integral(const scene::Curve* curve, double time) {
   if (curve == nullptr) return time;
   switch (curve->type) {

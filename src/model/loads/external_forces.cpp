@@ -9,13 +9,16 @@ namespace {
 
 /// Unit of the whole numbers in which contact forces are summed, N: a power of two. The sum must hold the force of the
 /// stiffest contact spring at a penetration of a tenth of its segment's diagonal (some 17 GPa on the segment, whatever
-/// the penalty's scale).
+/// the penalty's scale). Multipliers push as hard as the stiffer body can: one that strikes a soft one is stopped by
+/// what the other's mass takes, whatever its stiffness.
 double contact_quantum(const std::vector<ContactPair>& contacts) {
   double largest = 1e-30;
   for (const ContactPair& pair : contacts)
     for (double stiffness : pair.segment_stiffness)
       largest = std::max(
           largest, 0.1 * pair.segment_size * pair.growth * stiffness / std::min(1.0, pair.contact->penalty_scale));
+  for (const ContactPair& pair : contacts)
+    if (!pair.has_springs()) largest = std::max(largest, pair.slave_strength);
   return std::exp2(std::ceil(std::log2(largest / ExternalForceSum::largest)));
 }
 

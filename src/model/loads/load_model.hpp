@@ -43,8 +43,8 @@ struct MotionHistories {
   Array<int*> node;           ///< model node numbers
   Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
   PartedLists parts;          ///< one list for each set
-  Array<int*> driven;  ///< row in `driven_acceleration` of nodes that a prescribed motion moves, else -1; empty: none
-  Array<double* [3]> driven_acceleration;  ///< m/s2, of these along their prescribed directions, set after set
+  Array<int*> driven;         ///< row in `driven_change` of nodes that a prescribed motion moves, else -1; empty: none
+  Array<double* [6]> driven_change;  ///< of these, set after set: see PrescribedChange
 };
 
 /// Loads, connectors, and the node sets that both act on or that histories follow.
@@ -72,6 +72,16 @@ double curve_value(const scene::Curve* curve, double time);
 
 /// Its integral from 0 to a time of 0 or later, s.
 double curve_integral(const scene::Curve* curve, double time);
+
+/// Value of a curve and its first and second derivative by time, from the side of the times before: at a kink or a jump
+/// those of the piece that ends there.
+struct CurveRates {
+  double value, first, second;  ///< 1, 1/s, 1/s2
+};
+
+/// @param before s: pieces that begin later than that before `time` do not count yet, so that rounding of times decides
+/// nothing; 0: those that begin at `time` do
+CurveRates curve_rates(const scene::Curve* curve, double time, double before);
 
 /// What a load's kernel is given of a time: the curve's value times the moment (N m) or the pressure (Pa), of other
 /// loads the value alone.

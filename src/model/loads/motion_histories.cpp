@@ -21,7 +21,7 @@ void find_driven(const std::vector<int>& nodes, const std::vector<PrescribedSet>
   for (int n : nodes) driven.push_back(row.count(n) != 0 ? row[n] : -1);
   if (std::all_of(driven.begin(), driven.end(), [](int r) { return r < 0; })) return;
   histories.driven = to_device("driven nodes of motion histories", driven);
-  histories.driven_acceleration = Array<double* [3]>("acceleration of driven nodes", row.size());
+  histories.driven_change = Array<double* [6]>("motion of driven nodes", row.size());
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace railwave {
 namespace {
 
 /// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2, and minus the work of gravity. From the two velocities, not from
-/// m (|v_n|^2 - |step a/2|^2)/2: of nodes that begin to move nothing but rounding would be left.
+/// m (|v_n|^2 - |step a/2|^2)/2: of nodes that begin to move nothing but rounding would be left. Along prescribed
+/// directions a is 0 here: see PrescribedWork.
 struct NodalEnergy {
   static constexpr int values = values_of_node_parts;
   SubcycledAcceleration acceleration;
@@ -35,7 +36,7 @@ struct MeanMotionSum {
   Array<const int*> node;
   Array<const double* [2]> weight;
   Array<const int*> driven;  ///< empty: no prescribed motion moves any of them
-  Array<const double* [3]> driven_acceleration;
+  Array<const double* [6]> driven_change;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
@@ -48,8 +49,10 @@ struct MeanMotionSum {
     const Vector3 own = acceleration.levels.level.extent(0) == 0 ? a : acceleration(n);
     Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * own;
     if (const int r = driven.extent(0) > 0 ? driven(k) : -1; r >= 0) {
-      a = a + row(driven_acceleration, r);
-      v = v + lag * row(driven_acceleration, r);
+      for (int i = 0; i < 3; ++i) {
+        v[i] += driven_change(r, i);
+        a[i] += driven_change(r, 3 + i);
+      }
     }
     for (int i = 0; i < 3; ++i) {
       sum[3 + i] += of_motion * v[i];
@@ -79,7 +82,11 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
   queue_contact_energies(model.contacts, energy, sums);
   if (!model.loads.empty()) sums.sum(ArraySum{model.external.work}, model.external.contribution_count, external);
   for (const PrescribedSet& set : model.prescribed)
-    sums.sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), external);
+    sums.sum(PrescribedWork{prescribed_motion(model, set, 0), prescribed_instant(model, set)},
+             static_cast<int>(set.nodes.extent(0)), [&energy](const double* sum) {
+               energy.external_work += sum[0];
+               energy.kinetic += sum[1];
+             });
   if (model.ends.arrays.count > 0)
     sums.sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count,
              [&energy](const double* sum) {
@@ -104,7 +111,7 @@ void sum_own_parts(const Model& model, SampledSums what, double step) {
   } else {
     const MotionHistories& histories = model.motion_histories;
     sum_parts(histories.parts, MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight,
-                                             histories.driven, histories.driven_acceleration, model.velocity_lag});
+                                             histories.driven, histories.driven_change, model.velocity_lag});
     sum_element_parts(model, model.nodes);
   }
 }
@@ -148,16 +155,14 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
-/// Accelerations of nodes along the directions in which prescribed motions move them, where histories need them.
-void find_driven_accelerations(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed, double step,
-                               const MotionHistories& histories) {
+/// How prescribed motions move their nodes at the present instant, where histories need that.
+void find_driven_changes(const NodalState& nodal, const MotionHistories& histories) {
   if (histories.driven.extent(0) == 0) return;
   int first = 0;
-  for (const PrescribedSet& set : prescribed) {
+  for (const PrescribedSet& set : nodal.prescribed) {
     const int count = static_cast<int>(set.nodes.extent(0));
-    Kokkos::parallel_for(
-        "acceleration_of_driven_nodes", Range(0, count),
-        PrescribedAcceleration{{prescribed_motion(nodal, set, step)}, first, histories.driven_acceleration});
+    Kokkos::parallel_for("motion_of_driven_nodes", Range(0, count),
+                         PrescribedChange{prescribed_instant(nodal, set), set.nodes, first, histories.driven_change});
     first += count;
   }
 }
@@ -182,12 +187,12 @@ namespace {
 void queue_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others,
                           Reductions& sums) {
   // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
-  find_driven_accelerations(model, model.prescribed, step, model.motion_histories);
+  find_driven_changes(model, model.motion_histories);
   sum_all_parts(model, SampledSums::histories, step, others);
   queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
   queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, model, model.beams, sample.loads, sums);
-  queue_reactions(model, model.prescribed, step, sample.reactions, sums);
+  queue_reactions(model, sample.reactions, sums);
 }
 
 /// What the present instant's sample has when the sums are fetched; contacts of each pair into `pairs`.

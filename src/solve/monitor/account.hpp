@@ -9,8 +9,8 @@ namespace railwave {
 
 /// Energies at the present instant, whose forces have been computed. Stored energies are functions of the state,
 /// independent of the forces that move the nodes, so the balance tests the time integration:
-/// kinetic v(n-1/2) M v(n+1/2) / 2, elastic stress and strain, penalty and connector springs.
-/// `balance_error` is left zero: the time loop knows the start.
+/// kinetic v(n-1/2) M v(n+1/2) / 2, of what a prescribed motion moves v(n) M v(n) / 2, elastic stress and strain,
+/// penalty and connector springs. `balance_error` is left zero: the time loop knows the start.
 EnergyAccount account_energies(const Model& model, double step);
 
 /// kinetic + stored + dissipated - external work: constant in an exact run.

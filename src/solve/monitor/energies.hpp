@@ -6,7 +6,6 @@
 #include "kernels/support/reductions.hpp"
 #include "model/assembly.hpp"
 #include "model/beams/beams.hpp"
-#include "model/boundaries/prescribed_nodes.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/elements/element_model.hpp"
 #include "model/loads/load_model.hpp"
@@ -41,8 +40,8 @@ void add_other_half(ContactTotals& totals, const ContactTotals& other);  // cont
 void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
                        std::vector<LoadTotals>& totals, Reductions& sums);  // load_totals.cpp
 
-/// The same of prescribed motions. @param step s, of the step to come
-void queue_reactions(const NodalState& nodal, const std::vector<PrescribedSet>& sets, double step,
-                     std::vector<ReactionTotals>& totals, Reductions& sums);  // load_totals.cpp
+/// The same of prescribed motions.
+void queue_reactions(const NodalState& nodal, std::vector<ReactionTotals>& totals,
+                     Reductions& sums);  // load_totals.cpp
 
 }  // namespace railwave

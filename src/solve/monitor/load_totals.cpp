@@ -5,7 +5,6 @@
 #include "kernels/support/block_sum.hpp"
 #include "kernels/support/vector3.hpp"
 #include "model/beams/beams.hpp"
-#include "model/boundaries/prescribed_nodes.hpp"
 #include "solve/monitor/energies.hpp"
 
 namespace railwave {
@@ -81,17 +80,17 @@ void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const st
   }
 }
 
-void queue_reactions(const NodalState& nodal, const std::vector<PrescribedSet>& sets, double step,
-                     std::vector<ReactionTotals>& totals, Reductions& sums) {
-  totals.resize(sets.size());
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    const int count = static_cast<int>(sets[s].nodes.extent(0));
-    sums.sum(PrescribedReaction{prescribed_motion(nodal, sets[s], step)}, count,
-             [&totals = totals[s]](const double* sum) {
-               for (int i = 0; i < 3; ++i) totals.force[i] = sum[i];
-             });
-    sums.sum(PrescribedWork{prescribed_motion(nodal, sets[s], 0)}, count,
-             [&totals = totals[s]](const double* sum) { totals.work = *sum; });
+void queue_reactions(const NodalState& nodal, std::vector<ReactionTotals>& totals, Reductions& sums) {
+  totals.resize(nodal.prescribed.size());
+  for (std::size_t s = 0; s < totals.size(); ++s) {
+    const PrescribedSet& set = nodal.prescribed[s];
+    const int count = static_cast<int>(set.nodes.extent(0));
+    const PrescribedMotion motion = prescribed_motion(nodal, set, 0);
+    const PrescribedInstant instant = prescribed_instant(nodal, set);
+    sums.sum(PrescribedReaction{motion, instant}, count, [&totals = totals[s]](const double* sum) {
+      for (int i = 0; i < 3; ++i) totals.force[i] = sum[i];
+    });
+    sums.sum(PrescribedWork{motion, instant}, count, [&totals = totals[s]](const double* sum) { totals.work = *sum; });
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <exception>
+#include <mutex>
 #include <vector>
 
 #include "kernels/support/spaces.hpp"
 
-/// Copies between std::vector and device arrays.
+/// Copies between std::vector and device arrays, and work of the host on what is copied.
 namespace railwave {
 
 template <class T>
@@ -42,6 +44,38 @@ std::vector<T> to_vector(const Array<T*>& device) {
   using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   Kokkos::deep_copy(Plain(values.data(), values.size()), device);
   return values;
+}
+
+/// Calls of the host's threads; the first exception is kept.
+template <class Act>
+struct HostCalls {
+  const Act& act;
+  std::mutex& mutex;
+  std::exception_ptr& thrown;
+  void operator()(const int i) const {
+    try {
+      act(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+    }
+  }
+};
+
+/// Calls act(i) for each i below count, on all threads of the host: what one call does must not depend on others.
+/// Throws what one of them has thrown, when all are done.
+template <class Act>
+void on_host_threads(int count, const Act& act) {
+#ifdef RAILWAVE_SERIAL
+  using Space = Kokkos::Serial;
+#else
+  using Space = Kokkos::DefaultHostExecutionSpace;
+#endif
+  std::mutex mutex;
+  std::exception_ptr thrown;
+  Kokkos::parallel_for("on_host_threads", Kokkos::RangePolicy<Space>(0, count), HostCalls<Act>{act, mutex, thrown});
+  Space().fence();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace railwave

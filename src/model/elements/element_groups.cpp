@@ -15,16 +15,24 @@ namespace {
 
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
 /// (the inner nodes of MacNeal and Harder's block have one), and `railwave check` reports it.
-void check_element(const AssembledScene& assembled, const Assembly::PartRange& part, int element,
-                   const HexahedronCorners& corners) {
+bool can_be_integrated(const HexahedronCorners& corners) {
   const double g = 1 / std::sqrt(3.0);
-  for (const auto& s : hexahedron_corner_signs) {
-    if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
+  return std::all_of(std::begin(hexahedron_corner_signs), std::end(hexahedron_corner_signs),
+                     [&](const auto& s) { return hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0; });
+}
+
+void check_part(const AssembledScene& assembled, const Assembly::PartRange& part) {
+  const Assembly& assembly = assembled.assembly;
+  const auto corners = [&](int element) { return corners_of(assembly.nodes, assembly.elements[element]); };
+  std::vector<char> good(part.element_count);
+  on_host_threads(part.element_count, [&](int k) { good[k] = can_be_integrated(corners(part.first_element + k)); });
+  for (int k = 0; k < part.element_count; ++k) {
+    if (good[k] != 0) continue;
     throw InputError(fmt::format(
         "{}: part '{}': element {} (counted from 0 in its mesh) near {} is inverted or flat; "
         "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the "
         "same way",
-        assembled.scene.path, part.name, element - part.first_element, place_text(corners[0])));
+        assembled.scene.path, part.name, k, place_text(corners(part.first_element + k)[0])));
   }
 }
 
@@ -53,12 +61,19 @@ int group_of(std::vector<ElementGroup>& groups, std::vector<GroupKind>& kinds, c
 void weigh_part(AssembledScene& assembled, const Assembly::PartRange& range) {
   const Assembly& assembly = assembled.assembly;
   const scene::Material& material = assembled.scene.materials[range.material];
-  for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-    const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[e]);
-    const auto integrals = hexahedron_shape_integrals(x);
-    assembled.element_length[e] = hexahedron_length(x);
+  // Threads integrate so many elements at once, one adds them in their order.
+  constexpr int at_once = 1 << 14;
+  std::vector<std::array<double, 8>> integrals(std::min(at_once, range.element_count));
+  for (int first = 0; first < range.element_count; first += at_once) {
+    const int count = std::min(at_once, range.element_count - first), begin = range.first_element + first;
+    on_host_threads(count, [&](int k) {
+      const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[begin + k]);
+      integrals[k] = hexahedron_shape_integrals(x);
+      assembled.element_length[begin + k] = hexahedron_length(x);
+    });
     // Lumped mass by row sums (thesis 2.2.2).
-    for (int N = 0; N < 8; ++N) assembled.mass[assembly.elements[e][N]] += material.density * integrals[N];
+    for (int k = 0; k < count; ++k)
+      for (int N = 0; N < 8; ++N) assembled.mass[assembly.elements[begin + k][N]] += material.density * integrals[k][N];
   }
 }
 
@@ -190,9 +205,7 @@ std::vector<int> blocks_by_level(const BlockOrder& order) {
 }  // namespace
 
 void check_elements(const AssembledScene& assembled) {
-  for (const auto& part : assembled.assembly.parts)
-    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-      check_element(assembled, part, e, corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
+  for (const auto& part : assembled.assembly.parts) check_part(assembled, part);
 }
 
 void weigh_elements(AssembledScene& assembled) {

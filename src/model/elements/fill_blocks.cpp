@@ -85,6 +85,12 @@ class BlockFiller {
   }
   std::size_t slots() const { return static_cast<std::size_t>(group_.blocks.count) * elements_of_block; }
 
+  /// On all threads: blocks have values of their own.
+  template <class Act>
+  void each_block(const Act& act) const {
+    on_host_threads(static_cast<int>(wanted_.size()), [&](int k) { act(wanted_[k]); });
+  }
+
   std::unordered_map<int, int> local_numbers(int p) const {
     std::unordered_map<int, int> local;
     for (int l = 0; l < node_count_(p); ++l)
@@ -97,7 +103,7 @@ class BlockFiller {
     blocks.corner = unset_array<std::uint8_t*>("block corners", 8 * slots());
     const auto corner = Kokkos::create_mirror_view(blocks.corner);
     std::vector<BlockPlaces> packs(blocks.count);
-    for (const int p : wanted_) {
+    each_block([&](int p) {
       auto local = local_numbers(p);
       std::vector<Places> meeting(node_count_(p));
       const std::size_t base = 8 * static_cast<std::size_t>(p) * elements_of_block;
@@ -110,7 +116,7 @@ class BlockFiller {
             meeting[l].push_back(static_cast<std::uint16_t>(N * elements_of_block + slot));
         }
       packs[p] = packs_of(meeting, lanes_);
-    }
+    });
     Kokkos::deep_copy(blocks.corner, corner);
     blocks.first_place =
         even_rows("first corner places", packs, &BlockPlaces::first, places_at_once, blocks.pack_stride);
@@ -123,7 +129,7 @@ class BlockFiller {
     blocks.settling_hourglass = unset_array<float*>("hourglass scale while settling", slots());
     const auto scale = Kokkos::create_mirror_view(blocks.hourglass_scale),
                settling = Kokkos::create_mirror_view(blocks.settling_hourglass);
-    for (const int p : wanted_) {
+    each_block([&](int p) {
       const scene::Part& of = part(p);
       const double while_settling = settling_hourglass_coefficient(of);
       for (int slot = 0; slot < elements_of_block; ++slot) {
@@ -137,7 +143,7 @@ class BlockFiller {
         settling(at) =
             static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material(p), volume));
       }
-    }
+    });
     Kokkos::deep_copy(blocks.hourglass_scale, scale);
     Kokkos::deep_copy(blocks.settling_hourglass, settling);
   }
@@ -146,10 +152,11 @@ class BlockFiller {
   void fill_volumes() {
     group_.material.volume = unset_array<double*>("reference volume", slots());
     const auto volume = Kokkos::create_mirror_view(group_.material.volume);
-    for (const int p : wanted_)
+    each_block([&](int p) {
       for (int slot = 0; slot < elements_of_block; ++slot)
         volume(static_cast<std::size_t>(p) * elements_of_block + slot) =
             slot < group_.element_count[p] ? hexahedron_volume(places(p, slot)) : 0.0;
+    });
     Kokkos::deep_copy(group_.material.volume, volume);
   }
 
@@ -160,7 +167,7 @@ class BlockFiller {
         unset_array<double*>("drag of blocks' nodes", static_cast<std::size_t>(group_.blocks.count) * stride);
     const auto drag = Kokkos::create_mirror_view(group_.damping.node_drag);
     const auto& layers = absorbing_.rate;
-    for (const int p : wanted_) {
+    each_block([&](int p) {
       auto local = local_numbers(p);
       std::vector<double> mass(stride, 0.0);
       for (int slot = 0; slot < group_.element_count[p]; ++slot) {
@@ -172,7 +179,7 @@ class BlockFiller {
         const double layer = layers.empty() ? 0.0 : layers[node_(at) & ~advance_bit];
         drag(at) = l < node_count_(p) ? (part(p).mass_damping + layer) * mass[l] : 0.0;
       }
-    }
+    });
     Kokkos::deep_copy(group_.damping.node_drag, drag);
   }
 

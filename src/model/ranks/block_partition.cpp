@@ -57,39 +57,65 @@ struct BlockGraph {
   std::vector<std::vector<std::pair<int, int>>> edges;  ///< other block, nodes in common
 };
 
-BlockGraph graph_of(const Model& model) {
-  BlockGraph graph;
-  const std::vector<char> bound = bound_nodes(model);
-  std::vector<std::pair<int, int>> touches;  // node, block
+/// Calls act(block, node) for each node of each block.
+template <class Act>
+void each_node(const Model& model, const Act& act) {
   int block = 0;
   for (const ElementGroup& group : model.elements) {
-    graph.first.push_back(block);
-    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
-    for (int p = 0; p < group.blocks.count; ++p, ++block) {
-      graph.elements.push_back(group.element_count[p]);
-      graph.weight.push_back(group.element_count[p] / static_cast<double>(1L << group.level));
-      graph.bound.push_back(0);
-      for (int l = 0; l < count[p]; ++l) {
-        const int n = node[p * group.blocks.node_stride + l] & ~advance_bit;
-        touches.emplace_back(n, block);
-        if (bound[n] != 0) graph.bound[block] = 1;
-      }
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p, ++block)
+      for (int l = 0; l < count(p); ++l) act(block, node(p * group.blocks.node_stride + l) & ~advance_bit);
+  }
+}
+
+/// The blocks around each node: those of node n from first[n] on.
+struct BlocksOfNodes {
+  std::vector<int> first, block;
+
+  explicit BlocksOfNodes(const Model& model) : first(model.nodes.count + 1, 0) {
+    each_node(model, [&](int /*b*/, int n) { ++first[n + 1]; });
+    for (int n = 0; n < model.nodes.count; ++n) first[n + 1] += first[n];
+    block.resize(first.back());
+    each_node(model, [&](int b, int n) { block[first[n]++] = b; });
+    for (int n = model.nodes.count; n > 0; --n) first[n] = first[n - 1];
+    first[0] = 0;
+  }
+};
+
+BlockGraph graph_of(const Model& model) {
+  BlockGraph graph;
+  for (const ElementGroup& group : model.elements) {
+    graph.first.push_back(static_cast<int>(graph.elements.size()));
+    for (int count : group.element_count) {
+      graph.elements.push_back(count);
+      graph.weight.push_back(count / static_cast<double>(1L << group.level));
     }
   }
-  std::sort(touches.begin(), touches.end());
-  std::vector<std::pair<int, int>> pairs;
-  for (std::size_t begin = 0, end = 0; begin < touches.size(); begin = end) {
-    while (end < touches.size() && touches[end].first == touches[begin].first) ++end;
-    for (std::size_t a = begin; a < end; ++a)
-      for (std::size_t b = begin; b < end; ++b)
-        if (a != b) pairs.emplace_back(touches[a].second, touches[b].second);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  graph.edges.resize(block);
-  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
-    while (end < pairs.size() && pairs[end] == pairs[begin]) ++end;
-    graph.edges[pairs[begin].first].emplace_back(pairs[begin].second, static_cast<int>(end - begin));
-  }
+  const std::size_t blocks = graph.elements.size();
+  graph.bound.assign(blocks, 0);
+  graph.edges.resize(blocks);
+  const std::vector<char> bound = bound_nodes(model);
+  const BlocksOfNodes around(model);
+  std::vector<int> common(blocks, 0), others;  // with the present block
+  int present = 0;
+  const auto finish = [&] {
+    std::sort(others.begin(), others.end());
+    for (int other : others) {
+      graph.edges[present].emplace_back(other, common[other]);
+      common[other] = 0;
+    }
+    others.clear();
+  };
+  each_node(model, [&](int b, int n) {
+    if (b != present) finish();
+    present = b;
+    if (bound[n] != 0) graph.bound[b] = 1;
+    for (int k = around.first[n]; k < around.first[n + 1]; ++k) {
+      const int other = around.block[k];
+      if (other != b && common[other]++ == 0) others.push_back(other);
+    }
+  });
+  finish();
   return graph;
 }
 

@@ -11,6 +11,7 @@
 #include "model/beams/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_springs.hpp"
+#include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "model/ranks/mesh_share.hpp"
 #include "model/time_step/automatic_step.hpp"
@@ -65,16 +66,15 @@ struct EigenvalueSteps {
   explicit EigenvalueSteps(std::size_t count) : step(count), control(count) {}
 };
 
-/// @param elements ascending, whose steps are wanted; null: all
+/// @param elements whose steps are wanted; null: all
 EigenvalueSteps eigenvalue_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
                                  const std::vector<int>* elements = nullptr) {
   const Assembly& assembly = assembled.assembly;
   EigenvalueSteps steps(elements != nullptr ? elements->size() : assembly.elements.size());
   const double speed = largest_initial_speed(assembled.scene);
-  std::size_t p = 0;
-  for (std::size_t i = 0; i < steps.step.size(); ++i) {
-    const int e = elements != nullptr ? (*elements)[i] : static_cast<int>(i);
-    while (e >= assembly.parts[p].first_element + assembly.parts[p].element_count) ++p;
+  on_host_threads(static_cast<int>(steps.step.size()), [&](int i) {
+    const int e = elements != nullptr ? (*elements)[i] : i;
+    const int p = part_of_element(assembly, e);
     const scene::Part& part = assembled.scene.parts[p];
     const scene::Material& material = assembled.scene.materials[assembly.parts[p].material];
     const HexahedronCorners corners = corners_of(assembly.nodes, assembly.elements[e]);
@@ -84,7 +84,7 @@ EigenvalueSteps eigenvalue_steps(const AssembledScene& assembled, const Absorbin
     if (part.damped())
       steps.step[i] = damped_element_step(part, material, std::cbrt(hexahedron_volume(corners)), speed, steps.step[i]);
     drag(assembly, absorbing, e, steps.step[i]);
-  }
+  });
   return steps;
 }
 

@@ -19,8 +19,9 @@ function groupsOf(results) {
     const groups = { contact: [], energy: [], load: [], set: [] };
     for (const one of channels.values()) {
         const title = one.group === "energy" ? "energies" : `${one.owner}: ${words(one.quantity)}`;
-        let plot = groups[one.group].find((known) => known.title === title && known.unit === one.unit);
-        if (!plot) groups[one.group].push((plot = { title, unit: one.unit, curves: [] }));
+        const group = groups[one.group === "prescribed_motion" ? "load" : one.group]; // forces from outside, both
+        let plot = group.find((known) => known.title === title && known.unit === one.unit);
+        if (!plot) group.push((plot = { title, unit: one.unit, curves: [] }));
         const label = one.group === "energy" ? words(one.quantity) : one.component || words(one.quantity);
         plot.curves.push({ label, names: [one.name] });
     }

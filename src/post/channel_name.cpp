@@ -26,7 +26,8 @@ constexpr Quantity of_contacts[] = {{"normal_force", true},
                                     {"nodes_in_contact", false},
                                     {"nodes_slipping", false}};
 constexpr Quantity of_beams[] = {{"force", true}, {"moment", true}};
-constexpr Quantity of_loads[] = {{"force", true}};
+constexpr Quantity of_loads[] = {{"force", true}, {"moment", false}, {"work", false}};
+constexpr Quantity of_prescribed_motions[] = {{"reaction", true}, {"work", false}};
 constexpr const char* components[] = {"xx", "yy", "zz", "xy", "yz", "zx", "mises"};
 constexpr const char* directions = "x, y, z, size (the vector's length) or a vector such as 1,0,0.05";
 
@@ -226,6 +227,7 @@ std::vector<std::string> ChannelNames::all() const {
   add(contacts, "contact.", names_of(of_contacts), "");
   add(beams, "beam.", names_of(of_beams), ".0");
   add(loads, "load.", names_of(of_loads), "");
+  add(prescribed_motions, "prescribed_motion.", names_of(of_prescribed_motions), "");
   for (const std::string& energy : energies) result.push_back("energy." + energy);
   return result;
 }
@@ -249,6 +251,7 @@ std::string ChannelNames::summary() const {
   add(contacts, "contact.NAME.", names_of(of_contacts));
   add(beams, "beam.NAME.", names_of(of_beams));
   add(loads, "load.NAME.", names_of(of_loads));
+  add(prescribed_motions, "prescribed_motion.NAME.", names_of(of_prescribed_motions));
   add(energies, "energy.", {});
   return text.empty() ? "none at all" : text;
 }
@@ -265,6 +268,8 @@ std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, co
   if (!set && begins("contact.")) return {{owned("contact", text.substr(8), names.contacts, of_contacts, asked)}};
   if (!set && begins("beam.")) return {{owned("beam", text.substr(5), names.beams, of_beams, asked)}};
   if (!set && begins("load.")) return {{owned("load", text.substr(5), names.loads, of_loads, asked)}};
+  if (!set && begins("prescribed_motion."))
+    return {{owned("prescribed_motion", text.substr(18), names.prescribed_motions, of_prescribed_motions, asked)}};
   if (!set && begins("energy.")) {
     ChannelPlace place;
     place.group = "energy";

@@ -9,8 +9,8 @@ namespace railwave {
 
 /// Where in /history a channel's numbers are.
 struct ChannelPlace {
-  std::string group;     ///< set, contact, beam, load or energy
-  std::string owner;     ///< the set's, contact's, beam's or load's name; empty: energy
+  std::string group;     ///< set, contact, beam, load, prescribed_motion or energy
+  std::string owner;     ///< the set's, contact's, beam's, load's or motion's name; empty: energy
   std::string quantity;  ///< the dataset
   int element = 0;       ///< of a beam
   bool vector = false;   ///< three numbers a sample, of which `direction` takes one
@@ -24,10 +24,10 @@ struct ChannelPlace {
   std::string unit() const;
 };
 
-/// What a file has: names of its sets with motion, contacts, beams, energies and loads (those with a force), and of
-/// sets with stress or strain.
+/// What a file has: names of its sets with motion, contacts, beams, energies and loads, of sets with stress or strain,
+/// and of prescribed motions.
 struct ChannelNames {
-  std::vector<std::string> sets, contacts, beams, energies, loads, element_sets = {};
+  std::vector<std::string> sets, contacts, beams, energies, loads, element_sets = {}, prescribed_motions = {};
 
   /// Every channel without its direction.
   std::vector<std::string> all() const;

@@ -24,9 +24,6 @@ ChannelNames names_in(const hdf5::Group& history) {
   const auto names = [&](const char* group) {
     return history.has(group) ? history.group(group).names() : std::vector<std::string>{};
   };
-  std::vector<std::string> loads;
-  for (const std::string& load : names("load"))
-    if (history.group("load").group(load).has("force")) loads.push_back(load);
   std::vector<std::string> moving, inside;
   for (const std::string& set : names("set")) {
     const hdf5::Group group = history.group("set").group(set);
@@ -37,7 +34,7 @@ ChannelNames names_in(const hdf5::Group& history) {
     if (any_of(FieldRow::Place::node)) moving.push_back(set);
     if (any_of(FieldRow::Place::element)) inside.push_back(set);
   }
-  return {moving, names("contact"), names("beam"), names("energy"), loads, inside};
+  return {moving, names("contact"), names("beam"), names("energy"), names("load"), inside, names("prescribed_motion")};
 }
 
 hdf5::Group group_of(const hdf5::Group& history, const ChannelPlace& place) {
@@ -56,9 +53,11 @@ std::vector<double> component(const std::vector<double>& raw, const ChannelPlace
 /// All samples of one place.
 std::vector<double> read(const hdf5::Group& history, const ChannelPlace& place) {
   if (!group_of(history, place).has(place.quantity))
-    throw InputError(
-        fmt::format("channel '{}': the run did not write the {} of {}; name it among the probe's quantities",
-                    place.name(), place.quantity, place.owner));
+    throw InputError(fmt::format("channel '{}': the run did not write the {} of {}; {}", place.name(), place.quantity,
+                                 place.owner,
+                                 place.group == "set" ? "name it among the probe's quantities"
+                                                      : "of forces there are force and work, of torques moment and "
+                                                        "work"));
   const hdf5::Dataset dataset = group_of(history, place).dataset(place.quantity);
   const hdf5::Shape shape = dataset.shape();
   std::vector<double> raw;
@@ -225,7 +224,7 @@ HistoryTable read_table(const ResultsReader& results) {
   const ChannelNames names = names_in(history);
   table.beams = names.beams;
   for (const std::string& energy : names.energies) add("energy", "", history.group("energy"), energy);
-  for (const char* group : {"contact", "load", "set"})
+  for (const char* group : {"contact", "load", "prescribed_motion", "set"})
     for (const std::string& owner : history.has(group) ? history.group(group).names() : std::vector<std::string>{}) {
       const hdf5::Group there = history.group(group).group(owner);
       for (const std::string& name : there.names())

@@ -188,6 +188,44 @@ angular_velocity = [0, 0, 300]
                      });
 }
 
+TEST_CASE("of nodes that go to a place along a cosine, across while they are free along the spring") {
+  constexpr double way = 1e-4, lasts = 8e-4, w = M_PI / lasts;
+  const Case moved(block_on_spring + R"(
+[curves.go]
+type = "cosine_ramp"
+duration = 8e-4
+[prescribed_motion.driver]
+target = "block.all"
+displacement = [0, 1e-4, 0]
+displacement_curve = "go"
+directions = ["y"]
+[initial_motion.thrown]
+parts = ["block"]
+velocity = [2, 0, 0]
+)");
+  const double free = std::sqrt(spring / mass);
+  check_second_order(moved,
+                     {{"velocity", way * w},
+                      {"field of velocities", way * w},
+                      {"acceleration", way * w * w},
+                      {"field of accelerations", way * w * w},
+                      {"velocity along the spring", speed},
+                      {"kinetic energy", 0.5 * mass * speed * speed}},
+                     [free](const Simulation& run, double t) {
+                       const bool there = t > lasts + 1e-9;  // at its end still the acceleration of before
+                       const double v = there ? 0 : 0.5 * way * w * std::sin(w * t),
+                                    a = there ? 0 : 0.5 * way * w * w * std::cos(w * t);
+                       const double along = speed * std::cos(free * t);
+                       return std::map<std::string, double>{
+                           {"velocity", run.values("set.block.all.velocity")[1] - v},
+                           {"field of velocities", run.field("velocity", "block")[1] - v},
+                           {"acceleration", run.values("set.block.all.acceleration")[1] - a},
+                           {"field of accelerations", run.field("acceleration", "block")[1] - a},
+                           {"velocity along the spring", run.field("velocity", "block")[0] - along},
+                           {"kinetic energy", run.values("energy.kinetic")[0] - 0.5 * mass * (v * v + along * along)}};
+                     });
+}
+
 TEST_CASE("what is driven window by window has the window's velocity, acceleration and reaction at its end") {
   const std::string driven = R"(
 [curves.given]

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "case/scene.hpp"
 #include "kernels/boundaries/prescribed_motion.hpp"
 #include "kernels/support/spaces.hpp"
+#include "mesh/mesh.hpp"
 
 namespace railwave {
 

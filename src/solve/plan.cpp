@@ -153,9 +153,11 @@ Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
 }
 
 StepPlans::StepPlans(Model& model, RowExchange* exchange)
-    : nodal_(model),
-      advancing_(make_plan(model, StepKind::advancing, exchange)),
-      sampled_(make_plan(model, StepKind::sampled, exchange)) {}
+    : StepPlans(model, make_plan(model, StepKind::advancing, exchange), make_plan(model, StepKind::sampled, exchange)) {
+}
+
+StepPlans::StepPlans(NodalState& nodal, Plan advancing, Plan sampled)
+    : nodal_(nodal), advancing_(std::move(advancing)), sampled_(std::move(sampled)) {}
 
 void StepPlans::compute_forces(const Instant& instant, StepKind kind) {
   kind_ = kind;

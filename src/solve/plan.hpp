@@ -43,6 +43,7 @@ Plan make_plan(Model& model, StepKind kind, RowExchange* exchange = nullptr);
 class StepPlans {
  public:
   explicit StepPlans(Model& model, RowExchange* exchange = nullptr);
+  StepPlans(NodalState& nodal, Plan advancing, Plan sampled);
 
   /// Forces of the present instant: those of a sampled step stand until `advance`.
   void compute_forces(const Instant& instant, StepKind kind);

@@ -27,7 +27,7 @@ constexpr int default_steps = 16;
 constexpr long steps_of_first = 4;
 
 /// Steps of the largest graph: RAILWAVE_STEP_GRAPHS; 0, with which all steps are plain, also where a tool listens, as
-/// it would not be told of launches within graphs, and where rows of other ranks go through the host.
+/// it would not see launches within graphs, and where rows of other ranks go through the host.
 int most_steps(const RowExchange* exchange) {
   if (Kokkos::Profiling::profileLibraryLoaded() || (exchange != nullptr && !exchange->between_devices())) return 0;
   const char* chosen = std::getenv("RAILWAVE_STEP_GRAPHS");
@@ -115,6 +115,7 @@ struct StepRecording::Recordings {
       : model(the_model),
         exchange(of_ranks),
         elements_alone(of_ranks != nullptr && of_ranks->transport().rank() > 0),
+        contacts(elements_alone ? no_contacts : model.contacts),
         space(own_space != nullptr ? *own_space : ExecutionSpace()),
         own(own_space != nullptr),
         most(most_steps(of_ranks)),
@@ -130,15 +131,13 @@ struct StepRecording::Recordings {
   /// @param step s, which another rank than 0 has by its order alone
   State state(double step) const {
     State now{step};
-    if (elements_alone) return now;
-    for (const ContactPair& pair : model.contacts) now.push_back(pair.window.bound());
+    for (const ContactPair& pair : contacts) now.push_back(pair.window.bound());
     return now;
   }
 
   /// Whether tasks that are not recorded may launch something at this step.
   bool plain_due() const {
-    if (elements_alone) return false;
-    for (const ContactPair& pair : model.contacts)
+    for (const ContactPair& pair : contacts)
       if (model.step >= pair.next_check || model.step >= pair.next_near_check) return true;
     return model.relative.active();
   }
@@ -183,9 +182,8 @@ struct StepRecording::Recordings {
   /// Steps for one graph: a power of two that begins at a multiple of itself within a block of frames and a cycle of
   /// subcycling, with rare tasks at its first step only, so that few graphs do for all.
   long steps_of_graph(long quiet) const {
-    if (!elements_alone)
-      for (const ContactPair& pair : model.contacts)
-        quiet = std::min({quiet, pair.next_check - model.step, pair.next_near_check - model.step});
+    for (const ContactPair& pair : contacts)
+      quiet = std::min({quiet, pair.next_check - model.step, pair.next_near_check - model.step});
     for (const Task& task : rare) {
       const long since = (model.step + task.every - task.at) % task.every;
       quiet = std::min(quiet, task.every - since);
@@ -266,6 +264,8 @@ struct StepRecording::Recordings {
   Model& model;
   RowExchange* const exchange;  ///< null: one rank
   const bool elements_alone;    ///< another rank than 0: contact, loads and prescribed motions are 0's
+  const std::vector<ContactPair> no_contacts;
+  const std::vector<ContactPair>& contacts;  ///< that are looked after here
   const ExecutionSpace space;
   const bool own;               ///< not the default one
   bool launched = false;        ///< in that space since finish()

@@ -16,6 +16,7 @@ class OneOfTwo : public Transport {
   explicit OneOfTwo(std::function<void()> waited) : waited_(std::move(waited)) {
     setenv("RAILWAVE_RANK_MESSAGES", "host", 1);  // NCCL would wait for the other rank
   }
+  ~OneOfTwo() override { unsetenv("RAILWAVE_RANK_MESSAGES"); }
   int rank() const override { return 0; }
   int ranks() const override { return 2; }
   void broadcast(void* /*data*/, std::size_t /*bytes*/) override {}

@@ -52,7 +52,7 @@ class Mark {
 /// A stream whose launches come before those of the default one.
 class UrgentStream {
  public:
-  /// @param behind how many more urgent ones, as far as the device tells them apart
+  /// @param behind how many more urgent ones, as far as the device has so many priorities
   explicit UrgentStream(int behind) {
     int least = 0, greatest = 0;  // the greatest has the smallest number
     check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");

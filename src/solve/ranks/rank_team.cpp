@@ -288,26 +288,18 @@ void follow_rank_0(Model& model, Transport& transport) {
   layout = {};
   forget_mesh(model);
   give_freed_memory_back();
-  const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
-             sampled = follower_plan(model, StepKind::sampled, exchange);
-  StepRecording recording(model, advancing, nullptr, &exchange);
-  const auto advance_clock = [&](const Instant& instant, long steps) {
-    model.step += steps;
-    model.velocity_lag = 0.5 * instant.step;
-  };
-  const auto move = [&](const Plan& plan, const Instant& instant) {
-    run_tasks(plan.motion, instant, model.step);
-    advance_clock(instant, 1);
-  };
+  StepPlans plans(model, follower_plan(model, StepKind::advancing, exchange),
+                  follower_plan(model, StepKind::sampled, exchange));
+  StepRecording recording(model, plans.of(StepKind::advancing), nullptr, &exchange);
   const auto advance = [&](Instant instant, long steps) {
     for (const long end = model.step + steps; model.step < end; instant.elapsed = instant.step) {
       // No task of these ranks asks for the time.
       const long recorded = recording.advance(instant, end - model.step, [&](long) { return instant.time; });
       if (recorded > 0) {
-        advance_clock(instant, recorded);
+        plans.advance_clock(instant, recorded);
       } else {
-        run_tasks(advancing.forces, instant, model.step);
-        move(advancing, instant);
+        plans.compute_forces(instant, StepKind::advancing);
+        plans.advance(instant);
       }
     }
   };
@@ -329,7 +321,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         advance(instant, order.steps);
         break;
       case RankOrder::sample:
-        run_tasks(sampled.forces, instant, model.step);
+        plans.compute_forces(instant, StepKind::sampled);
         break;
       case RankOrder::gather:
         state_transfer.send(0, items, Transferred::state);
@@ -368,7 +360,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         send_to_rank_0(transport, peak_memory());
         break;
       case RankOrder::move:
-        move(sampled, instant);
+        plans.advance(instant);
         break;
       case RankOrder::deal_out:
       case RankOrder::end:

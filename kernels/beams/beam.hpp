@@ -162,16 +162,16 @@ struct BeamEnergy {
   }
 };
 
-/// Section forces and moments, for the outside.
+/// Section forces (N) and moments (N m) of an element, for the outside.
 struct BeamSectionForces {
+  static constexpr int values = 6;
   BeamArrays beams;
   Array<const double* [3]> position;
-  Array<double* [6]> result;
-  KOKKOS_INLINE_FUNCTION void operator()(const int e) const {
+  KOKKOS_INLINE_FUNCTION void operator()(int e, double* sum) const {
     const BeamMiddle m = beam_middle(beams, position, e, false);
     for (int i = 0; i < 3; ++i) {
-      result(e, i) = m.force[i];
-      result(e, 3 + i) = m.moment[i];
+      sum[i] += m.force[i];
+      sum[3 + i] += m.moment[i];
     }
   }
 };

@@ -31,6 +31,19 @@ struct BlockSum {
   }
 };
 
+/// The values of each item as they are. `Term` as of BlockSum.
+template <class Term>
+struct EachItem {
+  Term term;
+  double* result;  ///< item after item
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    double value[Term::values] = {};
+    term(i, value);
+    for (int k = 0; k < Term::values; ++k) result[i * Term::values + k] = value[k];
+  }
+};
+
 /// An array's own values.
 struct ArraySum {
   static constexpr int values = 1;

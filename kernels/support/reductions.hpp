@@ -11,9 +11,9 @@
 
 namespace railwave {
 
-/// Sums and largest values over many lists, fetched by the host all at once: a copy from a GPU takes as long as several
-/// small kernels. Items are taken together in blocks of fixed size, the blocks in blocks again, and the few that are
-/// left on the host, so a result is bitwise the same on any number of threads.
+/// Sums and largest values over many lists, and values of few items, fetched by the host all at once: a copy from a GPU
+/// takes as long as several small kernels. Items are taken together in blocks of fixed size, the blocks in blocks
+/// again, and the few that are left on the host, so a result is bitwise the same on any number of threads.
 class Reductions {
  public:
   explicit Reductions(ReductionSpace& space) : space_(space) {}
@@ -50,6 +50,17 @@ class Reductions {
           }
           use(static_cast<const Found&>(all));
         });
+  }
+
+  /// Queues the values of each of `count` items.
+  /// @param term see EachItem
+  /// @param use use(const double*) gets Term::values numbers of the first item, then those of the next
+  template <class Term, class Use>
+  void each(const Term& term, int count, Use use) {
+    const std::size_t place = used_;
+    double* const values = reserve(static_cast<std::size_t>(count) * Term::values);
+    Kokkos::parallel_for("each_item", SpreadRange(0, count), EachItem<Term>{term, values});
+    queued_.push_back({place, count, [use](const double* found, int /*items*/) { use(found); }});
   }
 
   /// Waits for what is queued and hands it out in the order of queueing.

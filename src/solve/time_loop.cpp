@@ -73,7 +73,7 @@ class TimeLoop {
                         leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space, leader_ ? &leader_->exchange() : nullptr),
-        histories_may_be_late_(space == nullptr && !leader_ && !model.beams && recording_.most() > 0 &&
+        histories_may_be_late_(space == nullptr && !leader_ && recording_.most() > 0 &&
                                std::none_of(observers.begin(), observers.end(),
                                             [](const RunObserver* one) { return one->looks_at_model(); })) {
     if (keeping.from) take_up(*keeping.from);

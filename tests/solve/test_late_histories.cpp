@@ -7,6 +7,7 @@
 #include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/solve/moved_blocks.hpp"
+#include "tests/verify/beam_scene.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -44,6 +45,9 @@ std::vector<double> numbers_of(const HistorySample& sample) {
     add(numbers, reaction.force);
     numbers.push_back(reaction.work);
   }
+  for (const BeamResultants& beam : sample.beams)
+    for (const auto* values : {&beam.force, &beam.moment})
+      numbers.insert(numbers.end(), values->begin(), values->end());
   return numbers;
 }
 
@@ -53,6 +57,8 @@ scene::Scene written_blocks() {
   scene.output.history_interval = scene.time.end / 40;
   scene.output.field_interval = scene.time.end / 3;
   scene.output.history_sets = {"upper.z_max"};
+  scene.points = {massless("pole", {0.03, 0.03, 0.2})};
+  scene.beams = {round_beam("pole", "upper.z_max", 0.004, 2)};
   return scene;
 }
 
@@ -90,6 +96,7 @@ Listened listen(const scene::Scene& scene, bool looks_at_model) {
 TEST_CASE("a sample that is under way is of its own instant") {
   Model model;
   build_model(written_blocks(), model);
+  REQUIRE(model.beams);
   set_initial_motion(model, model.nodes, model.beams);
   StepPlans plans(model);
   Instant instant;

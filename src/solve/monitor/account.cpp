@@ -193,6 +193,7 @@ void queue_history_values(const Model& model, double step, HistorySample& sample
   queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, model, model.beams, sample.loads, sums);
   queue_reactions(model, sample.reactions, sums);
+  if (model.beams) queue_beam_resultants(*model.beams, model.nodes, sample.beams, sums);
 }
 
 /// What the present instant's sample has when the sums are fetched; contacts of each pair into `pairs`.
@@ -227,7 +228,6 @@ HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>
   sums.fetch();
   if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
   join_halves(model.contacts, pairs, sample);
-  if (with_histories && model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
   return sample;
 }
 
@@ -242,7 +242,6 @@ void add_history_values(const Model& model, double step, HistorySample& sample, 
   Reductions sums(*model.reduction_space);
   queue_history_values(model, step, sample, others, sums);
   sums.fetch();
-  if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others) {

@@ -41,8 +41,7 @@ void add_history_values(const Model& model, double step, HistorySample& sample, 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
                           SampledRanks* others = nullptr);
 
-/// A history sample that the device has yet to come to: the host may launch the steps after it meanwhile. Of a model
-/// without beams, whose sums are the host's.
+/// A history sample that the device has yet to come to: the host may launch the steps after it meanwhile.
 class SampleUnderWay {
  public:
   SampleUnderWay(const Model& model, double step);

@@ -1,7 +1,5 @@
 #include "solve/tasks/beam_forces.hpp"
 
-#include "model/host_copy.hpp"
-
 namespace railwave {
 
 Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind) {
@@ -31,18 +29,25 @@ void queue_beam_energies(const NodalState& nodal, const BeamArrays& beams, doubl
   sums.sum(ArraySum{beams.work}, beams.moment_count, [&energy](const double* sum) { energy.external_work += *sum; });
 }
 
-std::vector<BeamResultants> beam_resultants(const BeamModel& built, const NodeArrays& nodes) {
-  const auto result = unset_array<double* [6]>("beam section forces", built.arrays.count);
-  Kokkos::parallel_for("beam_section_forces", Range(0, built.arrays.count),
-                       BeamSectionForces{built.arrays, nodes.position, result});
-  const auto host = to_host(result);
-  std::vector<BeamResultants> all(built.first_of_beam.size() - 1);
-  for (std::size_t b = 0; b < all.size(); ++b)
-    for (int e = built.first_of_beam[b]; e < built.first_of_beam[b + 1]; ++e)
-      for (int i = 0; i < 3; ++i) {
-        all[b].force.push_back(host(e, i));
-        all[b].moment.push_back(host(e, 3 + i));
+void queue_beam_resultants(const BeamModel& built, const NodeArrays& nodes, std::vector<BeamResultants>& all,
+                           Reductions& sums) {
+  all.resize(built.first_of_beam.size() - 1);
+  sums.each(BeamSectionForces{built.arrays, nodes.position}, built.arrays.count, [&built, &all](const double* values) {
+    for (std::size_t b = 0; b < all.size(); ++b)
+      for (int e = built.first_of_beam[b]; e < built.first_of_beam[b + 1]; ++e) {
+        const double* const of_element = values + e * BeamSectionForces::values;
+        all[b].force.insert(all[b].force.end(), of_element, of_element + 3);
+        all[b].moment.insert(all[b].moment.end(), of_element + 3, of_element + 6);
       }
+  });
+}
+
+std::vector<BeamResultants> beam_resultants(const BeamModel& built, const NodeArrays& nodes) {
+  std::vector<BeamResultants> all;
+  ReductionSpace space;
+  Reductions sums(space);
+  queue_beam_resultants(built, nodes, all, sums);
+  sums.fetch();
   return all;
 }
 

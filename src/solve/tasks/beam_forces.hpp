@@ -15,7 +15,9 @@ namespace railwave {
 void queue_beam_energies(const NodalState& nodal, const BeamArrays& beams, double step, EnergyAccount& energy,
                          Reductions& sums);
 
-/// One entry for each of the scene's beams.
+/// One entry for each of the scene's beams, when the sums are fetched; or at once.
+void queue_beam_resultants(const BeamModel& built, const NodeArrays& nodes, std::vector<BeamResultants>& all,
+                           Reductions& sums);
 std::vector<BeamResultants> beam_resultants(const BeamModel& built, const NodeArrays& nodes);
 
 /// Dynamic relaxation of the rotations, in step with that of the nodes.

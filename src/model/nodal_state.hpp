@@ -20,8 +20,9 @@ struct NodalState {
   Array<double* [3][3]> constraints;
   Subcycling subcycling;
   PartialForces partial;
-  SharedNodes shared;     ///< those that no block advances by itself
-  int early_shared = 0;   ///< so many of them, the first, know neither multipliers nor prescribed motions
+  SharedNodes shared;  ///< those that no block advances by itself
+  int early_shared =
+      0;  ///< so many of them, the first, wait for nothing but elements and loads: see order_shared_nodes()
   Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;
   FreeNodeArrays free_nodes;  ///< of contacts by multipliers; empty without

@@ -4,6 +4,7 @@
 
 #include "case/error.hpp"
 #include "kernels/support/set_zero.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/build_steps.hpp"
@@ -183,7 +184,7 @@ void put_at_reference(const NodeArrays& nodes) {
 }
 
 void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
-                        NodalState& nodal) {
+                        const Ties& ties, const NonReflectingEnds& ends, NodalState& nodal) {
   nodal.early_shared = 0;
   if (nodal.subcycling.levels > 1) return;  // they are in order of levels, and take no notice of special ones
   std::vector<char> late(nodal.nodes.count, 0);
@@ -198,6 +199,9 @@ void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vec
     mark(pair.master_nodes);
   }
   for (const PrescribedSet& set : prescribed) mark(to_vector(set.nodes));
+  mark(ties.masters);
+  for (const TiedPlace& tied : ties.places) mark({tied.slave});
+  if (!ties.places.empty()) mark(ends.nodes);
   const SharedOnHost shared = to_host(nodal.shared.nodes);
   nodal.shared.first_special = move_behind(shared, 0, [](const SharedNode& one) { return one.node >= 0; });
   const int first_late = move_behind(shared, nodal.shared.first_special,

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <exception>
 #include <functional>
+#include <memory>
+#include <set>
+#include <stdexcept>
 #include <vector>
 
 #include "kernels/support/spaces.hpp"
@@ -13,6 +19,35 @@
 #endif
 
 namespace railwave {
+
+#ifdef KOKKOS_ENABLE_CUDA
+
+inline void check_graph(cudaError_t result, const char* what) {
+  if (result == cudaSuccess) return;
+  throw std::runtime_error(fmt::format("CUDA could not {}, which RAILWAVE_STEP_GRAPHS=0 does without: {}", what,
+                                       cudaGetErrorString(result)));
+}
+
+/// Launches that were recorded, and are repeated as one. Each keeps its priority.
+class RepeatedLaunches {
+ public:
+  explicit RepeatedLaunches(cudaGraph_t graph) {
+    check_graph(cudaGraphInstantiate(&launches_, graph, cudaGraphInstantiateFlagUseNodePriority),
+                "make a graph of steps");
+  }
+  ~RepeatedLaunches() { cudaGraphExecDestroy(launches_); }
+  RepeatedLaunches(const RepeatedLaunches&) = delete;
+  RepeatedLaunches& operator=(const RepeatedLaunches&) = delete;
+
+  void launch(const ExecutionSpace& space) const {
+    check_graph(cudaGraphLaunch(launches_, space.cuda_stream()), "launch a graph of steps");
+  }
+
+ private:
+  cudaGraphExec_t launches_ = nullptr;
+};
+
+#endif
 
 #ifdef RAILWAVE_LAUNCH_GRAPHS
 
@@ -27,7 +62,8 @@ class LaunchGraph {
   Node root() const { return graph_.root_node(); }
 
   /// Records what `launch` launches, one after the other, to begin when a node is done.
-  static Node after(const Node& node, const std::function<void()>& launch) {
+  /// @param urgent they get room on the device before others that wait for it
+  Node after(const Node& node, bool urgent, const std::function<void()>& launch) {
     // What is thrown meanwhile must not leave the space recording.
     std::exception_ptr failure;
     const Node done = node.cuda_capture(ExecutionSpace(), [launch, &failure](const ExecutionSpace&) {
@@ -38,6 +74,8 @@ class LaunchGraph {
       }
     });
     if (failure) std::rethrow_exception(failure);
+    for (cudaGraphNode_t recorded : nodes_of(graph_.native_graph()))
+      if (recorded_.insert(recorded).second && urgent) put_first(recorded);
     return done;
   }
 
@@ -56,13 +94,40 @@ class LaunchGraph {
   }
 
   /// All is recorded.
-  void finish() { graph_.instantiate(); }
+  void finish() { launches_ = std::make_unique<RepeatedLaunches>(graph_.native_graph()); }
 
   /// @param space in whose order the launch comes; what it launches is not in the order of others
-  void launch(const ExecutionSpace& space) const { graph_.submit(space); }
+  void launch(const ExecutionSpace& space) const { launches_->launch(space); }
 
  private:
+  static std::vector<cudaGraphNode_t> nodes_of(cudaGraph_t graph) {
+    std::size_t count = 0;
+    check_graph(cudaGraphGetNodes(graph, nullptr, &count), "count the launches of a graph");
+    std::vector<cudaGraphNode_t> nodes(count);
+    check_graph(cudaGraphGetNodes(graph, nodes.data(), &count), "list the launches of a graph");
+    return nodes;
+  }
+
+  /// What was recorded together is a graph within the graph.
+  static void put_first(cudaGraphNode_t node) {
+    cudaGraphNodeType type;
+    check_graph(cudaGraphNodeGetType(node, &type), "look at a graph");
+    if (type == cudaGraphNodeTypeGraph) {
+      cudaGraph_t within = nullptr;
+      check_graph(cudaGraphChildGraphNodeGetGraph(node, &within), "look at a graph");
+      for (cudaGraphNode_t one : nodes_of(within)) put_first(one);
+    } else if (type == cudaGraphNodeTypeKernel) {
+      int least = 0, greatest = 0;  // the greatest has the smallest number
+      check_graph(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
+      cudaLaunchAttributeValue value{};
+      value.priority = std::max(greatest, least - 1);
+      check_graph(cudaGraphKernelNodeSetAttribute(node, cudaLaunchAttributePriority, &value), "set a priority");
+    }
+  }
+
   Kokkos::Experimental::Graph<ExecutionSpace> graph_;
+  std::set<cudaGraphNode_t> recorded_;
+  std::unique_ptr<RepeatedLaunches> launches_;
 };
 
 /// Spaces whose launches need not wait for each other's, nor for those of the default one.

@@ -53,11 +53,17 @@ GoingAlong going_along(const Model& model, StepKind kind, const RowExchange* exc
   return along;
 }
 
+EarlyNodes early_nodes(const Model& model, const RowExchange* exchange) {
+  if (exchange != nullptr) return EarlyNodes::with_others;
+  return model.ties.arrays.active() ? EarlyNodes::apart : EarlyNodes::beside_motion;
+}
+
 std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
   std::vector<Task> tasks = placed(prescribed_tasks(model, model.prescribed), Stage::motion, 0);
   if (model.beams && kind != StepKind::advancing)
     append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
-  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange)));
+  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange),
+                           early_nodes(model, exchange)));
   if (model.ties.arrays.active())
     append(tasks, placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0));
   return tasks;
@@ -143,7 +149,8 @@ std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdat
   append(tasks, placed(wait_before_search(model, false, exchange), Stage::own_forces, OwnForceLanes::contact));
   append(tasks, placed(multipliers.locate, Stage::own_forces, OwnForceLanes::contact));
   append(tasks, tie_tasks(model, model.ties));
-  append(tasks, placed(non_reflecting_tasks(model, model.ends, kind), Stage::last_forces, model.ties.at_ends ? 0 : 1));
+  append(tasks, placed(non_reflecting_tasks(model, model.ends, kind),
+                       model.ties.at_ends ? Stage::last_forces : Stage::passed_on, 1));
   append(tasks, placed(multipliers.find, Stage::motion, 0));
   return tasks;
 }

@@ -125,6 +125,7 @@ struct StepRecording::Recordings {
       for (const Task& task : *tasks) {
         (task.recordable ? recordable : plain).push_back(task);
         if (task.recordable && task.every > model.subcycling.cycle()) rare.push_back(task);
+        crowded = crowded || (task.recordable && task.bulk);
       }
   }
 
@@ -205,30 +206,41 @@ struct StepRecording::Recordings {
   /// A stage's lanes begin when all lanes of the stage before are done. In a space of its own one task comes after the
   /// other: what the others of that device launch fills it, and a graph with lanes takes the host 20 times as long to
   /// launch.
-  LaunchGraph::Node record_step(const LaunchGraph::Node& begin, const Instant& instant) const {
-    if (own) return LaunchGraph::after(begin, [this, &instant] { run_recordable(instant); });
-    LaunchGraph::Node ready = begin;
+  LaunchGraph::Node record_step(LaunchGraph& graph, const LaunchGraph::Node& begin, const Instant& instant) const {
+    if (own) return graph.after(begin, false, [this, &instant] { run_recordable(instant); });
+    LaunchGraph::Node ready = begin, own_forces = begin;
+    std::vector<const Task*> apart;
     for (std::size_t first = 0, end = 0; first < recordable.size(); first = end) {
+      const Stage stage = recordable[first].stage;
       std::map<int, std::vector<const Task*>> lanes;
-      for (; end < recordable.size() && recordable[end].stage == recordable[first].stage; ++end)
-        if (recordable[end].due(model.step)) lanes[recordable[end].lane].push_back(&recordable[end]);
+      for (; end < recordable.size() && recordable[end].stage == stage; ++end) {
+        const Task& task = recordable[end];
+        if (!task.due(model.step)) continue;
+        if (task.apart)
+          apart.push_back(&task);
+        else
+          lanes[task.lane].push_back(&task);
+      }
       std::map<int, LaunchGraph::Node> done;
-      for (const auto& [lane, tasks] : lanes) done.emplace(lane, record_lane(ready, tasks, done, instant));
+      for (const auto& [lane, tasks] : lanes) done.emplace(lane, record_lane(graph, ready, tasks, done, instant));
       std::vector<LaunchGraph::Node> ends;
       for (const auto& [lane, last] : done) ends.push_back(last);
       if (!ends.empty()) ready = LaunchGraph::joined(ends);
+      if (stage <= Stage::own_forces) own_forces = ready;
     }
-    return ready;
+    // Those that others wait for come before them.
+    return apart.empty() ? ready : LaunchGraph::joined({ready, record_lane(graph, own_forces, apart, {}, instant)});
   }
 
   /// @param done lanes of the same stage
-  static LaunchGraph::Node record_lane(LaunchGraph::Node ready, const std::vector<const Task*>& tasks,
-                                       const std::map<int, LaunchGraph::Node>& done, const Instant& instant) {
+  LaunchGraph::Node record_lane(LaunchGraph& graph, LaunchGraph::Node ready, const std::vector<const Task*>& tasks,
+                                const std::map<int, LaunchGraph::Node>& done, const Instant& instant) {
     for (std::size_t first = 0, end = 0; first < tasks.size(); first = end) {
       if (const auto other = done.find(tasks[first]->joins); other != done.end())
         ready = first == 0 ? other->second : LaunchGraph::joined({ready, other->second});
-      for (end = first + 1; end < tasks.size() && tasks[end]->joins < 0;) ++end;
-      ready = LaunchGraph::after(ready, [&tasks, first, end, &instant] {
+      const bool bulk = tasks[first]->bulk;
+      for (end = first + 1; end < tasks.size() && tasks[end]->joins < 0 && tasks[end]->bulk == bulk;) ++end;
+      ready = graph.after(ready, crowded && !bulk, [&tasks, first, end, &instant] {
         for (std::size_t t = first; t < end; ++t) tasks[t]->run(instant);
       });
     }
@@ -256,7 +268,7 @@ struct StepRecording::Recordings {
     }
     const auto graph = std::make_shared<LaunchGraph>();
     LaunchGraph::Node ready = graph->root();
-    for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(ready, now); });
+    for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(*graph, ready, now); });
     graph->finish();
     return [this, graph] { graph->launch(space); };
   }
@@ -273,6 +285,7 @@ struct StepRecording::Recordings {
   bool idle = true;             ///< the device has waited since the last graph
   const int most;
   std::vector<Task> plain, recordable, rare;
+  bool crowded = false;  ///< one of them is bulk
   StepValues<double> load_values;
   StepValues<RigidPlace> places;
   std::map<Key, std::function<void()>> graphs;

@@ -51,9 +51,9 @@ enum class StepKind {
 enum class Stage {
   begin,         ///< frames
   own_forces,    ///< loads, contact by springs, elements: from where the nodes are and how they move
-  passed_on,     ///< forces of tied nodes
-  last_forces,   ///< at the masters of ties, at non-reflecting ends
-  motion,        ///< multipliers and prescribed motions, beside them nodes that know neither, and rotations
+  passed_on,     ///< forces of tied nodes to their masters; at non-reflecting ends that know no ties
+  last_forces,   ///< at non-reflecting ends whose nodes are masters of ties
+  motion,        ///< multipliers, prescribed motions, rotations; apart from them, nodes that nothing but loads concerns
   other_motion,  ///< of all other nodes
   tied_motion
 };
@@ -70,6 +70,11 @@ struct Task {
   int lane = 0;
   /// A lane before its own in number, all of whose tasks it waits for, too; -1: none.
   int joins = -1;
+  /// More than a device has room for at a time: where tasks run side by side, others get room first.
+  bool bulk = false;
+  /// Waits for the tasks up to Stage::own_forces alone, and no other task of its step waits for it. Where a task is
+  /// apart it begins as soon as it may, though it comes later in the list.
+  bool apart = false;
   /// Whether all that it does is to launch the same kernels at each step that it is due. If not, it reads nothing that
   /// its step's other tasks write, and may run before them all.
   bool recordable = true;
@@ -146,9 +151,16 @@ std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<Pr
 /// (f) to (j) Rotations of beams.
 Task rotation_task(const NodalState& nodal, const BeamModel& built);
 
+/// How the nodes move that wait for nothing but elements and loads, NodalState::early_shared.
+enum class EarlyNodes {
+  with_others,    ///< in one launch: where tasks come one after the other
+  beside_motion,  ///< beside multipliers and prescribed motions
+  apart           ///< beside all that comes after the elements: with ties that is a chain of small launches
+};
+
 /// (f) to (j) Accelerations, constraints, velocities and positions of all nodes that no block has moved.
 std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
-                             StepKind kind, GoingAlong along);
+                             StepKind kind, GoingAlong along, EarlyNodes early);
 
 /// Tied nodes after their masters.
 Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind);

@@ -6,6 +6,8 @@
 #include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/solve/moved_blocks.hpp"
+#include "tests/verify/open_ends.hpp"
+#include "tests/verify/tied_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -75,6 +77,23 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
     scene.contacts[1].name = "sides";
     scene.contacts[1].slave = "upper.x_max";
   }
+  recorded_as_plain(scene);
+}
+
+TEST_CASE("nodes that wait for neither ties nor non-reflecting ends move beside them, as in plain steps") {
+  if (!has_launch_graphs) SKIP("Kokkos records no launches here");
+  TiedBlocks blocks;
+  SECTION("double") {}
+  SECTION("single") { blocks.precision = scene::Precision::single_precision; }
+  scene::Scene scene = blocks.scene(4e-4);
+  add_ramp(scene, "grows", 0, 6e-5);
+  add_pressure(scene, "fine.z_max", 1e7, "grows");
+  add_force(scene, "coarse.x_max", {2e3, 1e3, 0}, "grows");
+  add_dashpots(scene, "coarse.z_min");
+  Model model;
+  build_model(scene, model);
+  REQUIRE(model.early_shared > 0);
+  REQUIRE(model.early_shared < static_cast<int>(model.shared.nodes.extent(0)));
   recorded_as_plain(scene);
 }
 

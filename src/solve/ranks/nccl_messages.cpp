@@ -10,10 +10,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "case/error.hpp"
+#include "solve/launch_graph.hpp"
 
 namespace railwave {
 
@@ -100,23 +103,18 @@ class RecordedMessages : public DeviceMessages::Recorded {
     }
     cudaGraph_t graph = nullptr;
     const cudaError_t ended = cudaStreamEndCapture(stream, &graph);
-    const bool whole = !failure && ended == cudaSuccess;
-    // Outer blocks and messages come before inner blocks in a graph, too.
-    const cudaError_t made =
-        whole ? cudaGraphInstantiate(&launches_, graph, cudaGraphInstantiateFlagUseNodePriority) : cudaSuccess;
-    if (graph != nullptr) cudaGraphDestroy(graph);
+    const std::unique_ptr<std::remove_pointer_t<cudaGraph_t>, cudaError_t (*)(cudaGraph_t)> owned(graph,
+                                                                                                  cudaGraphDestroy);
     if (failure) std::rethrow_exception(failure);
-    check(ended, "record steps, which RAILWAVE_STEP_GRAPHS=0 does without");
-    check(made, "make a graph of steps, which RAILWAVE_STEP_GRAPHS=0 does without");
+    check_graph(ended, "record steps");
+    // Outer blocks and messages come before inner blocks in a graph, too.
+    launches_ = std::make_unique<RepeatedLaunches>(graph);
   }
-  ~RecordedMessages() override { cudaGraphExecDestroy(launches_); }
-  RecordedMessages(const RecordedMessages&) = delete;
-  RecordedMessages& operator=(const RecordedMessages&) = delete;
 
-  void launch() const override { check(cudaGraphLaunch(launches_, ExecutionSpace().cuda_stream()), "launch a graph"); }
+  void launch() const override { launches_->launch(ExecutionSpace()); }
 
  private:
-  cudaGraphExec_t launches_ = nullptr;
+  std::unique_ptr<RepeatedLaunches> launches_;
 };
 
 class NcclMessages : public DeviceMessages {

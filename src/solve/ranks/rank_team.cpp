@@ -20,7 +20,7 @@ namespace {
 Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   Plan plan;
   plan.forces = shared_force_tasks(model, kind, exchange, {});
-  plan.motion = node_tasks(model, model.elements, model, kind, {});
+  plan.motion = node_tasks(model, model.elements, model, kind, {}, EarlyNodes::with_others);
   return plan;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "model/contact/contact_law.hpp"
 #include "model/elements/materials.hpp"
 #include "solve/tasks/element_forces.hpp"
@@ -19,6 +21,11 @@ std::vector<Task> frame_tasks(const NodalState& nodal, const ElementGroup& group
             [&nodal, &group](const Instant&) { renew_frames(nodal.nodes, group); }};
   task.every = relative ? every : steps_between_frames;
   return {task};
+}
+
+/// More than a GPU has places for, twice over.
+bool fills_device(const ElementGroup& group) {
+  return 2 * group.blocks.count * elements_of_block > ExecutionSpace().concurrency();
 }
 
 std::string name_of(const ElementGroup& group) {
@@ -82,6 +89,10 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
   const auto lane_of = [&](const ElementGroup& group) {
     return OwnForceLanes::elements + static_cast<int>(&group - elements.elements.data());
   };
+  const auto by_blocks = [](const ElementGroup& one, const ElementGroup& other) {
+    return one.blocks.count < other.blocks.count;
+  };
+  const auto largest = std::max_element(elements.elements.begin(), elements.elements.end(), by_blocks);
   const auto listed_of = [&](const ElementGroup& group) {
     return listed.of_group == nullptr ? nullptr : &(*listed.of_group)[&group - elements.elements.data()];
   };
@@ -93,6 +104,7 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;
     Task task = force_task(nodal, group, elements.in_single, launch);
     task.every = steps;
+    task.bulk = &group == &*largest && fills_device(group);
     append(tasks, placed({task}, Stage::own_forces, lane_of(group)));
   }
   // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.

@@ -98,20 +98,16 @@ std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflect
 
 std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties) {
   if (!ties.arrays.active()) return {};
-  std::vector<Task> tasks = placed({{"forces of ties", "a",
-                                     [&nodal, &ties](const Instant&) {
-                                       Kokkos::parallel_for("tie_force", SpreadRange(0, ties.arrays.slave_count),
-                                                            TieForce{ties.arrays, nodal.acceleration().force});
-                                     }}},
-                                   Stage::passed_on, 0);
-  append(tasks, placed({{"gather of ties", "a",
-                         [&nodal, &ties](const Instant&) {
-                           const TieArrays& arrays = ties.arrays;
-                           Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
-                                                TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
-                         }}},
-                       Stage::last_forces, 0));
-  return tasks;
+  Task force{"forces of ties", "a", [&nodal, &ties](const Instant&) {
+               Kokkos::parallel_for("tie_force", SpreadRange(0, ties.arrays.slave_count),
+                                    TieForce{ties.arrays, nodal.acceleration().force});
+             }};
+  Task gather{"gather of ties", "a", [&nodal, &ties](const Instant&) {
+                const TieArrays& arrays = ties.arrays;
+                Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
+                                     TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
+              }};
+  return placed({std::move(force), std::move(gather)}, Stage::passed_on, 0);
 }
 
 }  // namespace railwave

@@ -120,7 +120,7 @@ std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<Pr
 }
 
 std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
-                             StepKind kind, GoingAlong along) {
+                             StepKind kind, GoingAlong along, EarlyNodes early_nodes) {
   const bool inner_have_moved = kind == StepKind::advancing;
   if (nodal.subcycling.levels > 1) return placed({subcycled_task(nodal, inner_have_moved)}, Stage::other_motion, 0);
   std::vector<Task> tasks;
@@ -131,9 +131,14 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
     append(tasks,
            placed({(relative ? relative_shared_task : shared_task)(nodal, loads, along.sets, range)}, stage, lane));
   };
-  const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = inner_have_moved ? nodal.early_shared : 0;
+  const bool divided = inner_have_moved && early_nodes != EarlyNodes::with_others;
+  const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = divided ? nodal.early_shared : 0;
   const std::string name = "nodes that element blocks share";
-  if (early > 0) add({name + ", beside multipliers and prescribed motions", 0, early}, Stage::motion, 1);
+  if (early > 0) {
+    add({name + ", beside what others wait for", 0, early}, Stage::motion, 1);
+    tasks.back().bulk = true;
+    tasks.back().apart = early_nodes == EarlyNodes::apart;
+  }
   add({name, early, all}, Stage::other_motion, 0);
   return tasks;
 }

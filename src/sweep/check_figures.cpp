@@ -35,8 +35,18 @@ std::string patch_mistake(const Figure& figure, const scene::Scene& scene) {
   if (std::find(contacts.begin(), contacts.end(), figure.contact) == contacts.end())
     return fmt::format("there is no contact '{}' in {}; {}", figure.contact, scene.path,
                        contacts.empty() ? "it has none" : suggestion(figure.contact, contacts));
-  const std::string missing = missing_output(scene.output);
-  return missing.empty() ? "" : fmt::format("{} has no contact solution: {}", scene.path, missing);
+  if (const std::string missing = missing_output(scene.output); !missing.empty())
+    return fmt::format("{} has no contact solution: {}", scene.path, missing);
+  const auto& windows = scene.output_windows;
+  const bool in_window = std::any_of(windows.begin(), windows.end(), [&](const scene::OutputWindow& window) {
+    return window.has_contact(figure.contact) && window.start <= figure.to &&
+           figure.from <= window.end.value_or(scene.time.end);
+  });
+  if (scene.output.field_interval > 0 || in_window || figure.from <= 0 || figure.to >= scene.time.end) return "";
+  return fmt::format(
+      "no output lies from {} s to {} s: without output.field_interval, or a window of outputs there, contacts are "
+      "written at the run's beginning and end alone",
+      figure.from, figure.to);
 }
 
 /// Samples are taken every history_interval and at the end: there are no more than this makes.

@@ -186,6 +186,10 @@ TEST_CASE("figures that the case cannot have are mistakes of the study", "[sweep
   CHECK(mistakes("[common]\noutput.history_interval = 1e-4\n[figures]\na = {of = \"energy.kinetic\", from = "
                  "7e-4}\n")
             .empty());
+  const std::string amid = "[figures]\na = {of = \"patch.between.area\", from = 4e-4, to = 5e-4}\n";
+  CHECK_THAT(mistakes(amid), ContainsSubstring("study.toml:4: [figures] a: no output lies from 0.0004 s to 0.0005 s"));
+  CHECK(mistakes("[common]\noutput.field_interval = 1e-4\n" + amid).empty());
+  CHECK(mistakes("[figures]\na = {of = \"patch.between.area\", from = 4e-4}\n").empty());
   CHECK_THAT(mistakes("[figures]\na = \"mode.1.frequency\"\n[modes]\nparts = [\"uper\"]\n"),
              ContainsSubstring("study.toml:5: [modes] parts: there is no part or point mass 'uper'") &&
                  ContainsSubstring("did you mean 'upper'?"));

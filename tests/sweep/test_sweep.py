@@ -159,6 +159,15 @@ class Whole(SweepTest):
         self.assertIn("member 6: friction=0.4, velocity[0]=6: to be run", done.stdout)
         self.assertFalse((self.folder / "out").exists())
 
+    def test_scripts_of_slurm_take_the_processors_that_they_ask_for(self):
+        study = write(self.folder, studies.GRID + studies.FIGURES + "[slurm]\ncpus_per_job = 3\n")
+        said = sweep(study, "--slurm", "4", "--dry-run").stdout
+        self.assertIn("#SBATCH --array=1-4\n", said)
+        self.assertIn("#SBATCH --cpus-per-task=3\n", said)
+        self.assertIn('--job "$SLURM_ARRAY_TASK_ID/4" --jobs 3 --threads 1 --no-pictures', said)
+        self.assertIn("--collect", said)
+        self.assertFalse((self.folder / "out").exists())
+
     def test_pictures(self):
         study = write(self.folder, "[grid]\ncontacts.between.friction = [0.1, 0.2]\n" + HEAT)
         done = subprocess.run([PROGRAM, "sweep", study], capture_output=True, text=True, cwd=self.folder)

@@ -280,6 +280,34 @@ TEST_CASE("a block that two motions drive at once moves as the sum of the two al
   CHECK(imbalance < 0.01 * most);
 }
 
+TEST_CASE("a block that one motion stretches and another squeezes across has the forces of plane stress") {
+  scene::Scene scene = block_scene({0.02, 0.02, 0.04}, {2, 2, 4}, 6e-4);
+  hold_lower_faces(scene, "block");
+  scene.parts[0].mass_damping = 1e5;  // calms the block within the run
+  add_ramp(scene, "first", 0, 2e-4);
+  add_ramp(scene, "second", 1e-4, 2e-4);
+  const double along = 1e-4, across = -5e-5;  // strains; the third direction is free
+  scene.prescribed_motions = {motion("block.z_max", {0, 0, 0}, {0, 0, 0}), motion("block.x_max", {0, 0, 0}, {0, 0, 0})};
+  scene::PrescribedMotion &stretch = scene.prescribed_motions[0], &squeeze = scene.prescribed_motions[1];
+  squeeze.name = "squeezed";
+  stretch.displacement = {0, 0, 0.04 * along};
+  squeeze.displacement = {0.02 * across, 0, 0};
+  stretch.displacement_curve = "first";
+  squeeze.displacement_curve = "second";
+  stretch.directions = {false, false, true};
+  squeeze.directions = {true, false, false};
+  scene.output.history_interval = 1e-4;
+  const HistorySample last = result_of(scene).samples.back();
+  const double modulus = 210e9 / (1 - 0.3 * 0.3), z = modulus * (along + 0.3 * across),
+               x = modulus * (across + 0.3 * along);
+  // The block has changed its faces by some strains' share.
+  const double share = 4 * along;
+  CHECK_THAT(last.reactions[0].force[2], WithinRel(4e-4 * z, share));
+  CHECK_THAT(last.reactions[1].force[0], WithinRel(8e-4 * x, share));
+  CHECK_THAT(last.energy.internal, WithinRel(0.5 * 16e-6 * (z * along + x * across), share));
+  CHECK_THAT(last.reactions[0].work + last.reactions[1].work, WithinRel(last.energy.external_work, 1e-12));
+}
+
 TEST_CASE("two motions along axes of their own keep the balance of energy, and places to the last bit") {
   const auto axes = oblique_axes();
   const RunResult both = result_of(TwiceDriven(axes, 2.0, 1e-4).scene);

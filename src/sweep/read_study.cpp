@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "case/keys.hpp"
 #include "case/number_text.hpp"
 #include "case/read_case.hpp"
 #include "case/suggest.hpp"

@@ -327,6 +327,25 @@ TEST_CASE("directions of one set follow curves of their own, and sets with commo
              ContainsSubstring("node 1 is moved along x by another set's motion already"));
 }
 
+TEST_CASE("conditions of Abaqus that move nodes by amplitudes of their own are as many motions") {
+  Decks decks;
+  std::string text = text_of(std::string(source_folder) + "/tests/deck/data/everything.inp");
+  const std::string before = "*CLOAD, AMPLITUDE=Ramp\n";
+  text.insert(text.find(before), "*BOUNDARY, AMPLITUDE=Ramp, TYPE=VELOCITY\n8, 1, 1, 5.\n8, 3, 3, 7.\n");
+  const auto scene = decks.scene_of(decks.take(text, "mm,t,s", {}, "deck_.inp"));
+  // One entry has the displacement along y and the velocities, whose curves are one: they exclude nothing.
+  REQUIRE(scene.prescribed_motions.size() == 1);
+  CHECK(scene.prescribed_motions[0].directions == std::array<bool, 3>{true, true, true});
+  text.insert(text.find("*BOUNDARY, AMPLITUDE=Ramp"), "*AMPLITUDE, NAME=Slow\n0., 0., 2e-3, 1.\n");
+  text.replace(text.find("8, 3, 3, 7.\n"), 12, "*BOUNDARY, AMPLITUDE=Slow, TYPE=VELOCITY\n8, 3, 3, 7.\n");
+  const auto two = decks.scene_of(decks.take(text, "mm,t,s", {}, "deck_.inp"));
+  REQUIRE(two.prescribed_motions.size() == 2);
+  CHECK(two.prescribed_motions[0].directions == std::array<bool, 3>{true, true, false});
+  CHECK(two.prescribed_motions[1].directions == std::array<bool, 3>{false, false, true});
+  CHECK(two.prescribed_motions[1].velocity[2] == 7e-3);
+  CHECK(two.prescribed_motions[0].curve != two.prescribed_motions[1].curve);
+}
+
 TEST_CASE("a rigid part is refused with a mend; one without elements does no harm") {
   Decks decks;
   std::string text = cube;

@@ -70,6 +70,7 @@ struct PrescribedInstant {
   }
 };
 
+/// Along perpendicular directions several of these may move the same nodes: none of them changes what another reads.
 /// Gives the nodes of a set, held in the prescribed directions, the velocity along these that brings them where the
 /// rigid motion will be at the next instant, so that no error adds up; and counts the work that this takes: of a node
 /// with mass m and, all along these directions, velocity v and force F at t_n
@@ -130,19 +131,23 @@ struct PrescribedReaction {
   }
 };
 
-/// What the scheme's velocities, half a step before, and accelerations of driven nodes lack at t_n.
+/// What the scheme's velocities, half a step before, and accelerations of driven nodes lack at t_n. A node that several
+/// motions drive, along perpendicular directions, has their sum.
 struct PrescribedChange {
   PrescribedInstant instant;
   Array<const int*> nodes;
-  int first;                  ///< of the set in `change`
-  Array<double* [6]> change;  ///< m/s and m/s2, of all sets
+  Array<const int*> rows;     ///< in `change`, of the nodes of all sets, set after set; ~row: an earlier set has it too
+  int first;                  ///< of this set in `rows`
+  Array<double* [6]> change;  ///< m/s and m/s2
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
     const int n = nodes(k);
     const Vector3 faster = instant.velocity_change(n, row(instant.nodes.velocity, n)), own = instant.acceleration(n);
+    const bool again = rows(first + k) < 0;
+    const int r = again ? ~rows(first + k) : rows(first + k);
     for (int i = 0; i < 3; ++i) {
-      change(first + k, i) = faster[i];
-      change(first + k, 3 + i) = own[i];
+      change(r, i) = again ? change(r, i) + faster[i] : faster[i];
+      change(r, 3 + i) = again ? change(r, 3 + i) + own[i] : own[i];
     }
   }
 };

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_shown = 50;
 
 int rank(const Where& where) {
-  if (where.command_line) return std::numeric_limits<int>::max();
+  if (where.override_number > 0) return std::numeric_limits<int>::max();
   return where.line > 0 ? where.line : std::numeric_limits<int>::max() - 1;
 }
 
@@ -21,6 +21,12 @@ void Complaints::add(Where where, const std::string& text) { found_.push_back({w
 
 void Complaints::throw_if_any() const {
   if (!found_.empty()) throw InputError(lines());
+}
+
+std::string Complaints::origin(const Where& where) const {
+  const auto number = static_cast<std::size_t>(where.override_number);
+  if (number > 0) return number <= origins_.size() ? origins_[number - 1] : "command line";
+  return where.line > 0 ? file_ + ":" + std::to_string(where.line) : file_;
 }
 
 std::vector<std::string> Complaints::lines() const {
@@ -33,11 +39,7 @@ std::vector<std::string> Complaints::lines() const {
       lines.push_back(file_ + ": and " + std::to_string(sorted.size() - most_shown) + " more mistakes");
       break;
     }
-    const auto& where = complaint.where;
-    const auto place = where.command_line ? "command line"
-                       : where.line > 0   ? file_ + ":" + std::to_string(where.line)
-                                          : file_;
-    lines.push_back(place + ": " + complaint.text);
+    lines.push_back(origin(complaint.where) + ": " + complaint.text);
   }
   return lines;
 }

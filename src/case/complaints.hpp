@@ -5,22 +5,24 @@
 
 namespace railwave::case_file {
 
-/// Where something stands: a line of the case file, or the command line (overrides). Line 0: the file as a whole.
+/// Where something stands: a line of the case file, or an override. Line 0: the file as a whole.
 struct Where {
   int line = 0;
-  bool command_line = false;
+  int override_number = 0;  ///< from 1, in the order in which overrides are given; 0: none
 };
 
 /// The mistakes found so far in one case file.
 class Complaints {
  public:
-  explicit Complaints(std::string file) : file_(std::move(file)) {}
+  /// @param origins where each override stands, such as "study.toml:12"; those without are of the command line
+  explicit Complaints(std::string file, std::vector<std::string> origins = {})
+      : file_(std::move(file)), origins_(std::move(origins)) {}
 
   void add(Where where, const std::string& text);
   bool empty() const { return found_.empty(); }
 
-  /// Throws InputError with one mistake a line, in the file's order, then those of the whole file, then those of the
-  /// command line.
+  /// Throws InputError with one mistake a line, in the file's order, then those of the whole file, then those of
+  /// overrides.
   void throw_if_any() const;
 
   /// The same lines, if not to be thrown: warnings.
@@ -31,7 +33,9 @@ class Complaints {
     Where where;
     std::string text;
   };
+  std::string origin(const Where& where) const;
   std::string file_;
+  std::vector<std::string> origins_;
   std::vector<Complaint> found_;
 };
 

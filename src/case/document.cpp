@@ -271,7 +271,8 @@ Document parse_document(std::string text, Complaints& complaints) {
   return document;
 }
 
-bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints) {
+bool parse_override_value(const std::string& text, const std::string& whole, Where where, Node& value,
+                          Complaints& complaints) {
   toml::table table;
   const auto error = try_parse("value = " + text, table);
   if (!error && table.size() == 1 && table.contains("value")) {
@@ -281,7 +282,7 @@ bool parse_override_value(const std::string& text, const std::string& whole, Nod
     const bool meant_as_toml =
         first != std::string::npos && std::string("[{\"'").find(text[first]) != std::string::npos;
     if (meant_as_toml || first == std::string::npos || text.find('\n') != std::string::npos) {
-      complaints.add({0, true},
+      complaints.add(where,
                      printable(whole) + ": " +
                          (first == std::string::npos
                               ? "the value after '=' is missing"
@@ -292,8 +293,8 @@ bool parse_override_value(const std::string& text, const std::string& whole, Nod
     value.type = Node::Type::text;
     value.text = text;
   }
-  const auto mark = [](auto&& self, Node& node) -> void {
-    node.where = {0, true};
+  const auto mark = [&where](auto&& self, Node& node) -> void {
+    node.where = where;
     for (auto& child : node.children) self(self, child);
   };
   mark(mark, value);

@@ -44,7 +44,9 @@ Document parse_document(std::string text, Complaints& complaints);
 
 /// The value of an override as TOML; text that is no TOML value counts as a text. Returns false, with
 /// a complaint, when it looks like a list, table or quoted text but is broken.
-bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints);
+/// @param where the override stands
+bool parse_override_value(const std::string& text, const std::string& whole, Where where, Node& value,
+                          Complaints& complaints);
 
 /// Puts `section.key=value` texts of the command line into the document, where they replace what the file says;
 /// `section.key[1]=value` replaces one entry of a list in the file, which count from 0. A named

@@ -248,10 +248,11 @@ Section motion_section() {
 
 Section prescribed_section() {
   using scene::PrescribedMotion;
-  auto section =
-      named_section("prescribed_motion", "prescribed motion", &Scene::prescribed_motions,
-                    "Node sets that move as a rigid body whose motion is known, such as a driven roller's bore; held "
-                    "while the scene settles. The work this takes is in the account's external work.");
+  auto section = named_section(
+      "prescribed_motion", "prescribed motion", &Scene::prescribed_motions,
+      "Node sets that move as a rigid body whose motion is known, such as a driven roller's bore; held "
+      "while the scene settles. The work this takes is in the account's external work. Several may move the same nodes "
+      "along perpendicular `directions`, each with curves of its own.");
   section.keys = {
       key("target", &PrescribedMotion::target, "what is moved").names(node_set).needed(),
       key("velocity", &PrescribedMotion::velocity, "of the centre").in("m/s"),

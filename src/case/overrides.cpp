@@ -30,11 +30,11 @@ std::vector<std::string> child_names(const Node& table) {
   return names;
 }
 
-Node& find_or_add(Node& table, const std::string& name) {
+Node& find_or_add(Node& table, const std::string& name, Where where) {
   if (auto* found = table.find(name)) return *found;
   Node child;
   child.name = name;
-  child.where = {0, true};
+  child.where = where;
   table.children.push_back(std::move(child));
   return table.children.back();
 }
@@ -72,7 +72,7 @@ std::string replace_entry(Node& table, const Entry& entry, const Node& value) {
 }
 
 /// The table that holds the key, or null with a complaint in `mistake`.
-Node* holder(const std::vector<std::string>& words, Node& root, std::string& mistake) {
+Node* holder(const std::vector<std::string>& words, Where where, Node& root, std::string& mistake) {
   if (words.size() == 1) {
     if (const auto* section = find_section(words[0]); section && !words[0].empty()) {
       mistake = "names a section; write " + words[0] + (section->named() ? ".NAME.key=value" : ".key=value");
@@ -93,7 +93,7 @@ Node* holder(const std::vector<std::string>& words, Node& root, std::string& mis
     return nullptr;
   }
   if (!section->named()) {
-    auto& table = find_or_add(root, section->name);
+    auto& table = find_or_add(root, section->name, where);
     return table.type == Node::Type::table ? &table : nullptr;
   }
   auto* entries = root.find(section->name);
@@ -112,31 +112,33 @@ Node* holder(const std::vector<std::string>& words, Node& root, std::string& mis
 
 void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints,
                      Complaints& remarks) {
+  Where where;
   for (const auto& text : overrides) {
+    ++where.override_number;
     const auto equals = text.find('=');
     if (equals == std::string::npos) {
-      complaints.add({0, true}, "'" + printable(text) + "' must be section.key=value, such as time.end=1e-3");
+      complaints.add(where, "'" + printable(text) + "' must be section.key=value, such as time.end=1e-3");
       continue;
     }
     const auto path = trimmed(text.substr(0, equals));
     auto words = split(path);
     if (const auto* section = find_renamed_section(words[0])) {
-      remarks.add({0, true}, renamed_text(*section));
+      remarks.add(where, renamed_text(*section));
       words[0] = section->name;
     }
     Node value;
-    if (!parse_override_value(trimmed(text.substr(equals + 1)), path, value, complaints)) continue;
+    if (!parse_override_value(trimmed(text.substr(equals + 1)), path, where, value, complaints)) continue;
     std::string mistake;
-    auto* table = holder(words, root, mistake);
-    if (!mistake.empty()) complaints.add({0, true}, printable(path) + ": " + mistake);
+    auto* table = holder(words, where, root, mistake);
+    if (!mistake.empty()) complaints.add(where, printable(path) + ": " + mistake);
     if (!table) continue;
     if (const Entry entry = entry_of(words.back()); entry.index) {
       mistake = replace_entry(*table, entry, value);
-      if (!mistake.empty()) complaints.add({0, true}, printable(path) + ": " + mistake);
+      if (!mistake.empty()) complaints.add(where, printable(path) + ": " + mistake);
       continue;
     }
     value.name = words.back();
-    auto& place = find_or_add(*table, value.name);
+    auto& place = find_or_add(*table, value.name, where);
     place = value;
   }
 }

@@ -135,15 +135,15 @@ std::string default_results_file(const std::string& case_path) {
 }
 
 scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides,
-                       std::vector<std::string>* warnings) {
+                       std::vector<std::string>* warnings, const std::vector<std::string>& origins) {
   const auto text = load_text(path);
-  Complaints complaints(path);
+  Complaints complaints(path, origins);
   auto document = parse_document(text, complaints);
   if (!document.usable) complaints.throw_if_any();
 
   scene::Scene scene;
   scene.path = path;
-  Complaints remarks(path);
+  Complaints remarks(path, origins);
   rename_sections(document.root, complaints, remarks);
   apply_overrides(overrides, document.root, complaints, remarks);
   scene.static_text = static_text(document.root);

@@ -12,8 +12,9 @@ namespace railwave {
 /// replaces one entry of a list. Throws InputError with every
 /// mistake that was found, one a line: `cases/x.toml:14: [parts.wheel] hourglas: unknown key; ...`.
 /// `warnings`, when given, receives in the same form what is odd, but may be meant: a density of 7.8 kg/m3.
+/// @param origins of the overrides, for mistakes in them: "study.toml:12"; without, the command line
 scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides = {},
-                       std::vector<std::string>* warnings = nullptr);
+                       std::vector<std::string>* warnings = nullptr, const std::vector<std::string>& origins = {});
 
 /// The folder that is a case's own where it names no other: results/NAME, NAME being the case file's name without its
 /// ending. It counts from the folder in which the program runs.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "case/perpendicular.hpp"
 #include "case/suggest.hpp"
 
 // Entries of one case file that cannot all hold, as far as their names show it; model/checks/contradictions.cpp looks
@@ -96,15 +97,16 @@ void check_initial_motions(const scene::Scene& scene, Complaints& complaints) {
 }
 
 void check_prescribed_motions(const scene::Scene& scene, Complaints& complaints) {
-  std::map<std::string, const scene::PrescribedMotion*> moved;
-  for (const auto& motion : scene.prescribed_motions) {
-    if (motion.target.empty()) continue;
-    const auto [known, first] = moved.try_emplace(motion.target, &motion);
-    if (first) continue;
-    complaints.add({motion.line}, fmt::format("[prescribed_motion.{}] target: '{}' has a prescribed motion already, "
-                                              "[prescribed_motion.{}] (line {}); keep one of them, which may have "
-                                              "velocity, rotation and displacement together",
-                                              motion.name, motion.target, known->second->name, known->second->line));
+  const auto& motions = scene.prescribed_motions;
+  for (auto motion = motions.begin(); motion != motions.end(); ++motion) {
+    const auto other = std::find_if(motions.begin(), motion, [&](const auto& before) {
+      return !motion->target.empty() && before.target == motion->target && !perpendicular(before, *motion);
+    });
+    if (other == motion) continue;
+    complaints.add({motion->line},
+                   fmt::format("[prescribed_motion.{}] target: '{}' is moved in the same directions by "
+                               "[prescribed_motion.{}] (line {}); {}",
+                               motion->name, motion->target, other->name, other->line, perpendicular_advice));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "deck/conversion.hpp"
@@ -138,14 +139,16 @@ std::vector<std::array<double, 2>> integral_of(const Curve& curve, double end) {
   return result;
 }
 
-/// What a group of motions is in the case: velocities of one curve, displacements of one.
+/// An entry of the case for motions of a group: velocities of one curve, displacements of one.
 struct CaseMotion {
   std::array<bool, 3> directions{};
   Vec3 velocity{0, 0, 0}, displacement{0, 0, 0};
   std::string curve, displacement_curve;
+  std::vector<Source> sources;
 };
 
-bool add_motion(Conversion& conversion, const Motion& motion, CaseMotion& made) {
+/// Adds a motion to the first entry that has its curve or none, or to a new one.
+bool add_motion(Conversion& conversion, const Motion& motion, std::vector<CaseMotion>& entries) {
   const Source& source = motion.source;
   if (motion.direction < 1 || motion.direction > 3) {
     conversion.report.refuse_always(
@@ -168,16 +171,18 @@ bool add_motion(Conversion& conversion, const Motion& motion, CaseMotion& made) 
     return false;
   }
   const bool moves = motion.kind == 2;
-  std::string& taken = moves ? made.displacement_curve : made.curve;
-  if (made.directions[axis] || (!taken.empty() && taken != curve)) {
-    conversion.report.refuse_always(source, made.directions[axis]
-                                                ? "a direction of these nodes has a motion already; keep one"
-                                                : "motions of one set must follow one curve of velocity and one of "
-                                                  "displacement at most; use one curve with factors (SF)");
+  const auto taken = [&](CaseMotion& made) -> std::string& { return moves ? made.displacement_curve : made.curve; };
+  if (std::any_of(entries.begin(), entries.end(), [&](const CaseMotion& made) { return made.directions[axis]; })) {
+    conversion.report.refuse_always(source, "a direction of these nodes has a motion already; keep one");
     return false;
   }
-  taken = curve;
+  auto entry = std::find_if(entries.begin(), entries.end(),
+                            [&](CaseMotion& made) { return taken(made).empty() || taken(made) == curve; });
+  if (entry == entries.end()) entry = entries.insert(entry, CaseMotion{});
+  CaseMotion& made = *entry;
+  taken(made) = curve;
   made.directions[axis] = true;
+  made.sources.push_back(source);
   const double unit = motion.kind == 2   ? conversion.units.length
                       : motion.kind == 1 ? conversion.units.acceleration() * conversion.units.time
                                          : conversion.units.velocity();
@@ -185,41 +190,52 @@ bool add_motion(Conversion& conversion, const Motion& motion, CaseMotion& made) 
   return true;
 }
 
+void write_motion(Conversion& conversion, const std::string& target, const CaseMotion& made, int number) {
+  const std::string name = fmt::format("prescribed_motion.motion_{}", number);
+  CaseText& text = conversion.text;
+  text.section(name);
+  text.key("target", target);
+  text.key("directions", directions_text({made.directions[0], made.directions[1], made.directions[2]}, 0));
+  if (!made.curve.empty()) {
+    text.key("velocity", made.velocity);
+    text.key("curve", toml(made.curve));
+  }
+  if (!made.displacement_curve.empty()) {
+    text.key("displacement", made.displacement);
+    text.key("displacement_curve", toml(made.displacement_curve));
+  }
+  for (const Source& source : made.sources) conversion.report.add(Fate::taken, source, "[" + name + "]");
+}
+
 }  // namespace
 
 void write_motions(Conversion& conversion) {
   int count = 0;
-  std::set<int> moved;
+  std::map<int, std::array<bool, 3>> moved;
   for (const MotionGroup& group : motion_groups(conversion)) {
     const Source& source = group.motions.front()->source;
-    CaseMotion made;
+    std::vector<CaseMotion> entries;
     bool good = true;
-    for (const Motion* motion : group.motions) good = add_motion(conversion, *motion, made) && good;
+    for (const Motion* motion : group.motions) good = add_motion(conversion, *motion, entries) && good;
     if (!good) continue;
-    for (const int n : group.nodes)
-      if (!moved.insert(n).second)
-        return conversion.report.refuse_always(
-            source, fmt::format("node {} has a motion of another set already; name sets without common nodes",
-                                conversion.deck.mesh.node_numbers()[n]));
+    for (const CaseMotion& made : entries)
+      for (const int n : group.nodes)
+        for (int axis = 0; axis < 3; ++axis) {
+          bool& taken = moved[n][axis];
+          if (taken && made.directions[axis])
+            return conversion.report.refuse_always(
+                source, fmt::format("node {} is moved along {} by another set's motion already; leave it out of one "
+                                    "of the two",
+                                    conversion.deck.mesh.node_numbers()[n], axis_names[axis]));
+          taken = taken || made.directions[axis];
+        }
     const Target target = conversion.target(group.nodes);
     if (!target.points.empty())
       conversion.report.refuse_always(source,
                                       "points, nodes of no hexahedron, can't be moved here; name nodes of bodies");
     for (const auto& [body, of_body] : target.of_body) {
-      const std::string name = fmt::format("prescribed_motion.motion_{}", ++count);
-      CaseText& text = conversion.text;
-      text.section(name);
-      text.key("target", toml(conversion.mesh.node_set(body, of_body, group.name)));
-      text.key("directions", directions_text({made.directions[0], made.directions[1], made.directions[2]}, 0));
-      if (!made.curve.empty()) {
-        text.key("velocity", made.velocity);
-        text.key("curve", toml(made.curve));
-      }
-      if (!made.displacement_curve.empty()) {
-        text.key("displacement", made.displacement);
-        text.key("displacement_curve", toml(made.displacement_curve));
-      }
-      for (const Motion* motion : group.motions) conversion.report.add(Fate::taken, motion->source, "[" + name + "]");
+      const std::string set = toml(conversion.mesh.node_set(body, of_body, group.name));
+      for (const CaseMotion& made : entries) write_motion(conversion, set, made, ++count);
     }
     if (target.of_body.empty() && target.points.empty())
       conversion.report.add(Fate::dropped, source, "its nodes belong to nothing");

@@ -152,6 +152,7 @@ void visit_arrays(const Named<Visitor>& visit, MotionHistories& histories) {
   visit(ArrayUse::constant, "weight", histories.weight);
   visit_arrays(visit, histories.parts);
   visit(ArrayUse::constant, "driven", histories.driven);
+  visit(ArrayUse::constant, "driven_rows", histories.driven_rows);
   visit(ArrayUse::scratch, "driven_change", histories.driven_change);
 }
 

@@ -18,8 +18,6 @@ namespace {
 /// times.
 constexpr double even = 1e-6;
 
-constexpr std::size_t fewest = 4;
-
 ChannelNames names_in(const hdf5::Group& history) {
   const auto names = [&](const char* group) {
     return history.has(group) ? history.group(group).names() : std::vector<std::string>{};
@@ -126,7 +124,8 @@ void space_evenly(HistorySeries& series, std::vector<double> times, const std::s
   const auto off = [&](std::size_t i, double interval) {
     return std::fabs(times[i + 1] - times[i] - interval) > even * interval;
   };
-  if (times.size() > fewest && times[times.size() - 1] - times[times.size() - 2] < (1 - even) * usual) times.pop_back();
+  if (times.size() > fewest_samples && times[times.size() - 1] - times[times.size() - 2] < (1 - even) * usual)
+    times.pop_back();
   double least = usual, most = usual;
   bool uneven = false;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
@@ -171,10 +170,10 @@ HistorySeries read(const ResultsReader& results, const HistoryRequest& request) 
       times.empty() ? "none at all" : fmt::format("they go from {:.6g} s to {:.6g} s", times.front(), times.back());
   const auto first = std::lower_bound(times.begin(), times.end(), request.from) - times.begin();
   const auto last = std::upper_bound(times.begin(), times.end(), request.to) - times.begin();
-  if (last - first < static_cast<std::ptrdiff_t>(fewest))
+  if (last - first < static_cast<std::ptrdiff_t>(fewest_samples))
     throw InputError(fmt::format("{} has {} history samples from {} s to {} s, of which {} are wanted at least; {}",
                                  results.path(), std::max<std::ptrdiff_t>(0, last - first), request.from, request.to,
-                                 fewest, whole));
+                                 fewest_samples, whole));
   times = {times.begin() + first, times.begin() + last};
   for (HistoryChannel& channel : series.channels) {
     channel.values = {channel.values.begin() + first, channel.values.begin() + last};
@@ -252,7 +251,7 @@ auto report_damage(const ResultsReader& results, const Read& read_it) {
 
 std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start,
                               double interval, std::size_t count) {
-  if (times.size() < fewest || times.size() != values.size())
+  if (times.size() < fewest_samples || times.size() != values.size())
     throw std::logic_error("cubic interpolation needs four samples");
   std::vector<double> result(count);
   std::size_t before = 0;  // the sample at or before the time

@@ -28,6 +28,9 @@ struct HistorySeries {
   double time(std::size_t i) const { return start + static_cast<double>(i) * interval; }
 };
 
+/// Samples that a series has at least.
+inline constexpr std::size_t fewest_samples = 4;
+
 /// What is read, and from when to when (s).
 struct HistoryRequest {
   std::vector<std::string> channels;

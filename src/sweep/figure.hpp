@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "case/complaints.hpp"
 #include "case/document.hpp"
+#include "case/scene.hpp"
 #include "post/contact_command.hpp"
 
 namespace railwave::sweep {
@@ -24,6 +26,7 @@ struct Figure {
   Take take = Take::last;
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();  ///< s
   double low = 0, high = std::numeric_limits<double>::infinity();  ///< Hz: where a frequency is looked for
+  case_file::Where where;                                          ///< in the study
 };
 
 /// All figures of a study, and how what they need is computed.
@@ -32,6 +35,7 @@ struct FigureChoice {
   ContactRequest patches;                ///< rolling direction, axle, rolling velocity
   std::vector<std::string> modes_parts;  ///< of `railwave modes`; empty: all
   double modes_up_to = 5000;             ///< Hz
+  case_file::Where patches_where, modes_where;
 
   bool need(Figure::Source source) const;
   bool need_run() const { return need(Figure::Source::patch) || need(Figure::Source::history); }
@@ -61,6 +65,14 @@ FigureChoice read_figures(const case_file::Node& study, case_file::Complaints& c
 /// Complains about each key of a table that is not among those known.
 void expect_keys(const case_file::Node& table, const std::string& subject, const std::vector<std::string>& known,
                  case_file::Complaints& complaints);
+
+/// Complains about each figure that no run of the scene can have, as far as the case alone shows it: contacts and parts
+/// that are not there, outputs that are not written, times beyond its end.
+void check_figures(const FigureChoice& choice, const scene::Scene& scene, case_file::Complaints& complaints);
+
+/// Complains about each history that no run of the scene will write. Its meshes are made for that: their sets are known
+/// then. Throws InputError where the case asks for histories of sets that no mesh has.
+void check_histories(const FigureChoice& choice, scene::Scene scene, case_file::Complaints& complaints);
 
 /// @param results of the member's run; not read unless a figure needs it
 /// @param modes the table that `railwave modes --csv` wrote; likewise

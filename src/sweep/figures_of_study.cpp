@@ -36,6 +36,7 @@ void read_take(const Node& node, const std::string& subject, Figure& figure, Com
 void read_figure(const Node& node, FigureChoice& choice, Complaints& complaints) {
   Figure figure;
   figure.name = node.name;
+  figure.where = node.where;
   const std::string subject = "[figures] " + printable(node.name);
   if (node.name.empty() || node.name.find_first_not_of(letters) != std::string::npos)
     complaints.add(node.where, subject + ": the name may only have letters a-z, digits, '_' and '-'");
@@ -95,7 +96,10 @@ void read_modes(const Node& node, FigureChoice& choice, Complaints& complaints) 
   if (!(choice.modes_up_to > 0)) complaints.add(node.where, "[modes] up_to: must be above 0 Hz");
   if (const Node* parts = node.find("parts")) {
     if (parts->type != Type::list) complaints.add(parts->where, "[modes] parts: must be a list of names");
-    for (const Node& part : parts->children) choice.modes_parts.push_back(part.text);
+    for (const Node& part : parts->children) {
+      if (part.type != Type::text) complaints.add(part.where, "[modes] parts: must be a list of names");
+      choice.modes_parts.push_back(part.text);
+    }
   }
 }
 
@@ -121,8 +125,14 @@ FigureChoice read_figures(const Node& study, Complaints& complaints) {
   FigureChoice choice;
   if (const Node* figures = section(study, "figures", complaints))
     for (const Node& one : figures->children) read_figure(one, choice, complaints);
-  if (const Node* patches = section(study, "patches", complaints)) read_patches(*patches, choice.patches, complaints);
-  if (const Node* modes = section(study, "modes", complaints)) read_modes(*modes, choice, complaints);
+  if (const Node* patches = section(study, "patches", complaints)) {
+    choice.patches_where = patches->where;
+    read_patches(*patches, choice.patches, complaints);
+  }
+  if (const Node* modes = section(study, "modes", complaints)) {
+    choice.modes_where = modes->where;
+    read_modes(*modes, choice, complaints);
+  }
   return choice;
 }
 

@@ -66,7 +66,7 @@ std::string array_script(const Study& study, const Calls& calls, int jobs) {
          fmt::format(
              "#SBATCH --array=1-{}\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task={}\n"
              "#SBATCH --signal=B:TERM@60\n"
-             "cd {} || exit 1\nexec {} --job \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --no-pictures\n",
+             "cd {} || exit 1\nexec {} --job \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --threads 1 --no-pictures\n",
              jobs, study.slurm.cpus_per_job, shell_word(calls.here), calls.sweep(), jobs, study.slurm.cpus_per_job);
 }
 

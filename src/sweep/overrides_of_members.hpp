@@ -9,23 +9,34 @@
 
 namespace railwave::sweep {
 
-/// Keys of the case with their values, in the order in which they are to replace what the case says.
-using Overrides = std::vector<std::pair<std::string, case_file::Node>>;
+/// A key of the case with its value.
+struct Override {
+  std::string key;
+  case_file::Node value;
+  std::string origin;  ///< where it stands: "study.toml:12"
+};
+
+/// In the order in which they are to replace what the case says.
+using Overrides = std::vector<Override>;
+
+/// The unit of a key such as "time.end" or "parts.wheel.position[1]"; "1" of a mere number and of what is no key.
+std::string unit_of_key(const std::string& key);
 
 /// The keys of a table of the study. Written with quotes, "contacts.tread.friction" = 0.3, or without, which makes
 /// tables in tables: both are the same key.
-Overrides keys_of(const case_file::Node& table);
+/// @param path of the study file
+Overrides keys_of(const case_file::Node& table, const std::string& path);
 
 /// What a study says of its members; each of the three may be missing.
 struct MemberSources {
-  std::vector<Overrides> list;                                             ///< [[list]]
-  std::vector<Overrides> rows;                                             ///< of the CSV file that `table` names
-  std::vector<std::pair<std::string, std::vector<case_file::Node>>> grid;  ///< [grid]
+  std::vector<Overrides> list;  ///< [[list]]
+  std::vector<Overrides> rows;  ///< of the CSV file that `table` names
+  std::vector<Overrides> grid;  ///< [grid]: for each key one entry for each of its values
 };
 
 /// Reads [[list]], `table` and [grid] of a study; adds to the complaints what is wrong.
-/// @param folder of the study file, from which the table's name counts
-MemberSources read_member_sources(const case_file::Node& study, const std::string& folder,
+/// @param path of the study file, from whose folder the table's name counts
+MemberSources read_member_sources(const case_file::Node& study, const std::string& path,
                                   case_file::Complaints& complaints);
 
 /// The keys that differ between members, in the order of list, table, grid, each once.

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "case/keys.hpp"
 #include "case/number_text.hpp"
 #include "case/read_case.hpp"
 #include "case/suggest.hpp"
@@ -71,26 +70,16 @@ void read_slurm(const Node& node, SlurmChoice& slurm, Complaints& complaints) {
   }
 }
 
-void refuse_own_keys(const Overrides& overrides, Complaints& complaints) {
-  for (const auto& [key, value] : overrides)
-    if (std::find(own_keys.begin(), own_keys.end(), key) != own_keys.end())
-      complaints.add(value.where, key + ": the sweep gives each member files of its own; leave this key out");
+void refuse_own_keys(const std::vector<Overrides>& entries, Complaints& complaints) {
+  std::set<std::string> refused;
+  for (const Overrides& entry : entries)
+    for (const Override& one : entry)
+      if (std::find(own_keys.begin(), own_keys.end(), one.key) != own_keys.end() && refused.insert(one.key).second)
+        complaints.add(one.value.where, one.key + ": the sweep gives each member files of its own; leave this key out");
 }
 
 /// Without ending; the folder of the results of a case of that name would be the same.
 std::string usual_folder(const std::string& study_path) { return default_results_folder(study_path); }
-
-std::string unit_of_key(const std::string& key) {
-  const auto first = key.find('.'), last = key.rfind('.');
-  const std::string section_name = first == std::string::npos ? "" : key.substr(0, first);
-  std::string name = last == std::string::npos ? key : key.substr(last + 1);
-  name = name.substr(0, name.find('['));
-  const auto* section = case_file::find_section(section_name);
-  if (section)
-    for (const case_file::Key& one : section->keys)
-      if (one.name == name && !one.unit.empty()) return one.unit;
-  return "1";
-}
 
 /// What the case itself says; a text without letters where it says nothing.
 Node value_in_case(const Node& root, const std::string& key) {
@@ -177,30 +166,12 @@ class MemberHash {
   std::map<std::string, std::string> files_;
 };
 
-/// A member's mistakes are those of a command line; here they stand in the study.
-std::string of_study(const std::string& text) {
-  const std::string before = "command line: ";
-  std::string result = text;
-  for (std::size_t at = 0; (at = result.find(before, at)) != std::string::npos;) result.erase(at, before.size());
-  return result;
-}
-
-std::vector<std::string> override_texts(const Overrides& common, const Overrides& own) {
-  std::vector<std::string> texts;
-  for (const Overrides* all : {&common, &own})
-    for (const auto& [key, value] : *all) texts.push_back(key + '=' + case_file::toml_text(value));
-  return texts;
-}
-
-void make_members(const Node& study, const std::string& study_folder, Study& result, Complaints& complaints) {
-  const MemberSources sources = read_member_sources(study, study_folder, complaints);
+void make_members(const Node& study, Study& result, Complaints& complaints) {
+  const MemberSources sources = read_member_sources(study, result.path, complaints);
   Overrides common;
-  if (const Node* node = study.find("common")) common = keys_of(*node);
-  refuse_own_keys(common, complaints);
-  for (const Overrides& one : sources.list) refuse_own_keys(one, complaints);
-  for (const std::string& key : keys_of(sources))
-    if (std::find(own_keys.begin(), own_keys.end(), key) != own_keys.end())
-      complaints.add(study.where, key + ": the sweep gives each member files of its own; leave this key out");
+  if (const Node* node = study.find("common")) common = keys_of(*node, result.path);
+  refuse_own_keys({common}, complaints);
+  for (const auto* entries : {&sources.list, &sources.rows, &sources.grid}) refuse_own_keys(*entries, complaints);
   complaints.throw_if_any();
 
   Complaints of_case(result.case_file);
@@ -212,22 +183,28 @@ void make_members(const Node& study, const std::string& study_folder, Study& res
   for (const Overrides& own : combinations(sources, most_members)) {
     Member member;
     member.number = static_cast<int>(result.members.size()) + 1;
-    member.overrides = override_texts(common, own);
-    for (const Parameter& parameter : result.parameters) {
-      Node value = value_in_case(document.root, parameter.key);
-      for (const Overrides* all : {static_cast<const Overrides*>(&common), &own})
-        for (const auto& [key, said] : *all)
-          if (key == parameter.key) value = said;
-      member.values.push_back(value);
-    }
+    std::vector<std::string> origins;
+    for (const Parameter& parameter : result.parameters)
+      member.values.push_back(value_in_case(document.root, parameter.key));
+    for (const Overrides* all : {static_cast<const Overrides*>(&common), &own})
+      for (const Override& one : *all) {
+        member.overrides.push_back(one.key + '=' + case_file::toml_text(one.value));
+        origins.push_back(one.origin);
+        for (std::size_t p = 0; p < result.parameters.size(); ++p)
+          if (result.parameters[p].key == one.key) member.values[p] = one.value;
+      }
     member.called = called(result.parameters, member.values);
     scene::Scene scene;
     try {
-      scene = read_case(result.case_file, member.overrides);
+      scene = read_case(result.case_file, member.overrides, nullptr, origins);
     } catch (const InputError& error) {
-      throw InputError(
-          fmt::format("{}: member {} ({}):\n{}", result.path, member.number, member.called, of_study(error.what())));
+      throw InputError(fmt::format("{}: member {} ({}):\n{}", result.path, member.number, member.called, error.what()));
     }
+    check_figures(result.figures, scene, complaints);
+    if (!complaints.empty() && member.number > 1)
+      complaints.add({}, fmt::format("these are mistakes of member {} ({}) and not of those before it", member.number,
+                                     member.called));
+    complaints.throw_if_any();
     member.memory = bytes_of_program + bytes_of_element * expected_elements(scene);
     member.settles = scene.settle.active;
     const std::string name = hash.of(scene, member.overrides);
@@ -274,7 +251,7 @@ Study read_study(const std::string& path) {
   complaints.throw_if_any();
   const std::string folder = fs::path(path).parent_path().string();
   if (fs::path(study.case_file).is_relative()) study.case_file = (fs::path(folder) / study.case_file).string();
-  make_members(root, folder, study, complaints);
+  make_members(root, study, complaints);
   return study;
 }
 

@@ -1,5 +1,6 @@
 #include "sweep/sweep_command.hpp"
 
+#include <algorithm>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "case/error.hpp"
 #include "case/memory.hpp"
 #include "case/number_text.hpp"
+#include "case/read_case.hpp"
 #include "sweep/member_row.hpp"
 #include "sweep/run_members.hpp"
 #include "sweep/study.hpp"
@@ -30,6 +32,17 @@ std::vector<const Member*> wanted_members(const Study& study, const SweepRequest
   std::vector<const Member*> all;
   for (const Member& member : study.members) all.push_back(&member);
   return all;
+}
+
+/// Throws InputError for histories that the runs will not write. One of the members that are still to be run stands for
+/// all: their meshes have sets of the same names.
+void expect_histories(const Study& study, const std::vector<const Member*>& members) {
+  const auto next =
+      std::find_if(members.begin(), members.end(), [&](const Member* one) { return !is_done(study, *one); });
+  if (next == members.end()) return;
+  case_file::Complaints complaints(study.path);
+  check_histories(study.figures, read_case(study.case_file, (*next)->overrides), complaints);
+  complaints.throw_if_any();
 }
 
 void describe(const Study& study, const std::vector<const Member*>& members, std::ostream& out) {
@@ -64,9 +77,10 @@ int sweep_command(const SweepRequest& request, const std::function<bool()>& stop
   const Study study = read_study(request.study);
   if (request.slurm && (request.snakemake || request.members || request.job || request.collect))
     throw InputError("--slurm hands the whole study over: leave out --snakemake, --members, --job and --collect");
+  const std::vector<const Member*> members = wanted_members(study, request);
+  if (!request.collect) expect_histories(study, members);
   if (request.slurm) return hand_over_to_slurm(study, *request.slurm, request.dry_run, out);
   if (request.snakemake) return hand_over_to_snakemake(study, request.dry_run, out);
-  const std::vector<const Member*> members = wanted_members(study, request);
   if (request.dry_run) {
     describe(study, members, out);
     return done;

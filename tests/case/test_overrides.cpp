@@ -43,9 +43,9 @@ TEST_CASE("a value is written as TOML reads it again", "[case]") {
     INFO(written);
     case_file::Complaints complaints("test");
     case_file::Node value, again;
-    REQUIRE(case_file::parse_override_value(written, "test", value, complaints));
+    REQUIRE(case_file::parse_override_value(written, "test", {0, 1}, value, complaints));
     CHECK(case_file::toml_text(value) == written);
-    REQUIRE(case_file::parse_override_value(case_file::toml_text(value), "test", again, complaints));
+    REQUIRE(case_file::parse_override_value(case_file::toml_text(value), "test", {0, 1}, again, complaints));
     CHECK(case_file::toml_text(again) == written);
   }
 }

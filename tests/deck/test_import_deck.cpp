@@ -296,6 +296,56 @@ TEST_CASE("mistakes are refused with file and line") {
   CHECK_THAT(decks.refusal(row.text), ContainsSubstring(row.expected));
 }
 
+TEST_CASE("directions of one set follow curves of their own, and sets with common nodes move along different ones") {
+  Decks decks;
+  const std::string curves =
+      "*DEFINE_CURVE\n1,0\n0,0\n1e-6,1\n*DEFINE_CURVE\n2,0\n0,0\n5e-7,1\n*SET_NODE_LIST\n1\n1,2,3,4\n"
+      "*SET_NODE_LIST\n2\n1,5\n";
+  const auto motion = [](int set, int direction, int kind, int curve, double scale) {
+    return "*BOUNDARY_PRESCRIBED_MOTION_SET\n" + std::to_string(set) + ',' + std::to_string(direction) + ',' +
+           std::to_string(kind) + ',' + std::to_string(curve) + ',' + std::to_string(scale) + '\n';
+  };
+  // x and y by one curve of velocity, z by another, and what two of the nodes share with another set.
+  const auto import =
+      decks.take(cube + curves + motion(1, 1, 0, 1, 3) + motion(1, 3, 0, 2, 5) + motion(2, 2, 2, 2, 1e-3), "m,kg,s");
+  const auto scene = decks.scene_of(import);
+  REQUIRE(scene.prescribed_motions.size() == 3);
+  const auto& x = scene.prescribed_motions[0];
+  const auto& z = scene.prescribed_motions[1];
+  const auto& y = scene.prescribed_motions[2];
+  CHECK(x.target == z.target);
+  CHECK(x.directions == std::array<bool, 3>{true, false, false});
+  CHECK(z.directions == std::array<bool, 3>{false, false, true});
+  CHECK(y.directions == std::array<bool, 3>{false, true, false});
+  CHECK(x.velocity == std::array<double, 3>{3, 0, 0});
+  CHECK(z.velocity == std::array<double, 3>{0, 0, 5});
+  CHECK(y.displacement == std::array<double, 3>{0, 1e-3, 0});
+  CHECK(x.curve != z.curve);
+  CHECK_THAT(decks.refusal(cube + curves + motion(1, 1, 0, 1, 3) + motion(1, 1, 0, 2, 3)),
+             ContainsSubstring("a direction of these nodes has a motion already"));
+  CHECK_THAT(decks.refusal(cube + curves + motion(1, 1, 0, 1, 3) + motion(2, 1, 0, 2, 3)),
+             ContainsSubstring("node 1 is moved along x by another set's motion already"));
+}
+
+TEST_CASE("conditions of Abaqus that move nodes by amplitudes of their own are as many motions") {
+  Decks decks;
+  std::string text = text_of(std::string(source_folder) + "/tests/deck/data/everything.inp");
+  const std::string before = "*CLOAD, AMPLITUDE=Ramp\n";
+  text.insert(text.find(before), "*BOUNDARY, AMPLITUDE=Ramp, TYPE=VELOCITY\n8, 1, 1, 5.\n8, 3, 3, 7.\n");
+  const auto scene = decks.scene_of(decks.take(text, "mm,t,s", {}, "deck_.inp"));
+  // One entry has the displacement along y and the velocities, whose curves are one: they exclude nothing.
+  REQUIRE(scene.prescribed_motions.size() == 1);
+  CHECK(scene.prescribed_motions[0].directions == std::array<bool, 3>{true, true, true});
+  text.insert(text.find("*BOUNDARY, AMPLITUDE=Ramp"), "*AMPLITUDE, NAME=Slow\n0., 0., 2e-3, 1.\n");
+  text.replace(text.find("8, 3, 3, 7.\n"), 12, "*BOUNDARY, AMPLITUDE=Slow, TYPE=VELOCITY\n8, 3, 3, 7.\n");
+  const auto two = decks.scene_of(decks.take(text, "mm,t,s", {}, "deck_.inp"));
+  REQUIRE(two.prescribed_motions.size() == 2);
+  CHECK(two.prescribed_motions[0].directions == std::array<bool, 3>{true, true, false});
+  CHECK(two.prescribed_motions[1].directions == std::array<bool, 3>{false, false, true});
+  CHECK(two.prescribed_motions[1].velocity[2] == 7e-3);
+  CHECK(two.prescribed_motions[0].curve != two.prescribed_motions[1].curve);
+}
+
 TEST_CASE("a rigid part is refused with a mend; one without elements does no harm") {
   Decks decks;
   std::string text = cube;

@@ -52,6 +52,10 @@ def prescribed(target, name="drive", **keys):
     return section(f"prescribed_motion.{name}", target=target, **keys)
 
 
+def along(direction, name="drive", **keys):
+    return prescribed("lower.z_min", name, **keys).rstrip("\n") + f'\ndirections = ["{direction}"]\n'
+
+
 def initial(part, name="start", **keys):
     return f'[initial_motion.{name}]\nparts = ["{part}"]\n' + "".join(
         f"{key} = {value}\n" for key, value in keys.items()
@@ -113,13 +117,34 @@ TABLE = {
     "two prescribed motions of one set": (
         prescribed("lower.z_min", velocity=[1, 0, 0]) + prescribed("lower.z_min", "more", velocity=[0, 1, 0]),
         (
-            "refused: [prescribed_motion.more] target: 'lower.z_min' has a prescribed motion already,"
-            " [prescribed_motion.drive]"
+            "refused: [prescribed_motion.more] target: 'lower.z_min' is moved in the same directions by"
+            " [prescribed_motion.drive] (line .*); motions of common nodes must have perpendicular `directions`"
         ),
     ),
     "two prescribed motions with common nodes": (
         prescribed("lower.z_min", velocity=[1, 0, 0]) + prescribed("lower.x_min", "more", velocity=[0, 1, 0]),
-        "refused: a node of 'lower.x_min' has a prescribed motion already",
+        (
+            "refused: [prescribed_motion.more]: the node of 'lower.x_min' at .* is moved in the same directions by"
+            " [prescribed_motion.drive] (line .*), whose 'lower.z_min' has it too; leave it out of one of the two sets"
+        ),
+    ),
+    "two prescribed motions of one set along perpendicular directions": (
+        along("x", velocity=[1, 0, 0]) + along("z", "more", velocity=[0, 0, 1]),
+        "",
+    ),
+    "two prescribed motions of one set along directions that are oblique to one another": (
+        along("x", velocity=[1, 0, 0])
+        + along("x", "more", velocity=[0, 0, 1])
+        + "axes = [[0.8, 0, 0.6], [0, 1, 0], [-0.6, 0, 0.8]]\n",
+        "refused: [prescribed_motion.more] target: 'lower.z_min' is moved in the same directions by",
+    ),
+    "two prescribed motions, one of them across a constraint": (
+        fixed(directions="z") + along("x", velocity=[1, 0, 0]) + along("z", "more", velocity=[0, 0, 1]),
+        "refused: [constraints.hold]: holds the node at .* along (0, 0, 1), in which [prescribed_motion.more]",
+    ),
+    "two prescribed motions along what a constraint leaves free": (
+        fixed(directions="y") + along("x", velocity=[1, 0, 0]) + along("z", "more", velocity=[0, 0, 1]),
+        "",
     ),
     "two initial motions of one part": (
         initial("upper", velocity=[1, 0, 0]) + initial("upper", "more", angular_velocity=[0, 1, 0]),

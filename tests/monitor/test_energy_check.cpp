@@ -238,3 +238,59 @@ TEST_CASE("what a load begins to move has no energy of rounding") {
   scene.curves.push_back(rise);
   CHECK(said_of_energy(run_with(scene, {})) == "");
 }
+
+namespace {
+
+/// Falls slowly, far from the origin, and a mass that a spring carries: in a step of 1 ns places change by no more than
+/// a few of their last digits.
+scene::Scene slow_fall() {
+  scene::Scene scene = block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1);
+  scene.parts[0].take_hourglass(scene::HourglassType::stiffness);
+  scene.parts[0].position = {3, 0.1, 1};
+  scene.gravity = {0, 0, -9.81};
+  add_motion(scene, {"block"}, {1e-3, 0, 0});
+  add_point(scene, "weight", 100, {0, 0, 2});
+  add_spring(scene, "ground", "weight", {0, 0, 1e6}, {0, 0, 0});
+  scene.connectors.back().preload = {0, 0, 900};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("runs of a few steps so short that places hardly change make no false alarm") {
+  for (const double step : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7})
+    for (const long count : {1L, 2L, 7L, 31L, 100L}) {
+      scene::Scene scene = slow_fall();
+      scene.time.step = step;
+      const Meddler meddler = run_with(scene, {}, count);
+      INFO(count << " steps of " << step << " s");
+      CHECK(meddler.said() == "");
+      CHECK(meddler.summary.completed);
+    }
+}
+
+TEST_CASE("a genuine failure in the first steps is found, however few they are") {
+  // Energy of a billionth of a joule, made at the last step but a few: a thousand times what rounding explains.
+  for (const double step : {1e-9, 1e-8})
+    for (const long count : {2L, 8L}) {
+      scene::Scene scene = slow_fall();
+      scene.time.step = step;
+      const Meddler meddler = run_with(
+          scene, [](Model& model) { shake(model, "block", 1e-9); }, count);
+      INFO(count << " steps of " << step << " s; " << meddler.said());
+      CHECK(meddler.done_at == count / 2);
+      CHECK(!meddler.summary.completed);
+      REQUIRE(meddler.summary.fault);
+      CHECK(meddler.summary.fault->kind == FaultKind::energy);
+    }
+  // A step of three times the stable one, in a run that ends before an error could last.
+  scene::Scene scene = pressed_block();
+  Model model;
+  build_model(scene, model);
+  model.step_size = 3 * element_height(model);
+  model.step_count = 24;
+  Meddler meddler;
+  run(model, {&meddler});
+  INFO(meddler.said());
+  CHECK(!meddler.summary.completed);
+}

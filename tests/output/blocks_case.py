@@ -123,11 +123,28 @@ ENDS = """
 target = "lower.y_max"
 """
 
+# Several motions drive the same nodes: each its own way.
 PUSHED = """
 [prescribed_motion.push]
 target = "rib.x_max"
 velocity = [-1.5, 0, 0]
 directions = ["x"]
+[prescribed_motion.lift]
+target = "rib.x_max"
+displacement = [0, 0, 1e-5]
+displacement_curve = "rise"
+directions = ["z"]
+[node_sets.edge]
+part = "rib"
+box = [[0.079, 0, 0.021], [0.081, 1, 1]]
+[prescribed_motion.aside]
+target = "rib.edge"
+velocity = [0, 0.2, 0]
+curve = "rise"
+directions = ["y"]
+[probes.driven]
+part = "rib"
+position = [0.08, 0.022, 0.022]
 """
 
 KINDS = {

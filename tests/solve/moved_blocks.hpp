@@ -8,7 +8,8 @@
 
 namespace railwave::verify {
 
-/// Most of what a step can have: besides busy_blocks' a load that grows, a pressure, a motion that is prescribed.
+/// Most of what a step can have: besides busy_blocks' a load that grows, a pressure, two motions that are prescribed of
+/// the same nodes.
 inline scene::Scene moved_blocks() {
   scene::Scene scene = busy_blocks();
   add_ramp(scene, "grows", 0, 6e-5);
@@ -20,6 +21,11 @@ inline scene::Scene moved_blocks() {
   motion.velocity = {-0.05, 0, 0};
   motion.curve = "grows";
   motion.directions = {true, false, false};
+  scene.prescribed_motions.push_back(motion);
+  scene.prescribed_motions[1].name = "lifted";
+  scene.prescribed_motions[1].velocity = {0, 0, 0.02};
+  scene.prescribed_motions[1].curve.clear();
+  scene.prescribed_motions[1].directions = {false, false, true};
   scene.constraints.clear();
   hold(scene, "lower.x_min", {true, true, true});
   return scene;

@@ -58,6 +58,9 @@ class Schedulers(unittest.TestCase):
         self.assertEqual(said.count("50 completed, 0 broke down, 0 refused, 0 unfinished"), 4, said)
         self.assertEqual(self.table("slurm"), self.alone)
         self.expect_each_run_once("slurm")
+        # A processor of a job is a thread, whatever the machine has.
+        for attempts in (self.top / "slurm").rglob("attempts.txt"):
+            self.assertIn("began with 1 thread\n", attempts.read_text())
 
     @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed: scripts/setup --schedulers does that")
     def test_snakemake(self):

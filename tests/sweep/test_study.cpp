@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "case/error.hpp"
+#include "case/read_case.hpp"
 #include "sweep/member_row.hpp"
 #include "sweep/overrides_of_members.hpp"
 #include "sweep/run_members.hpp"
@@ -146,6 +147,83 @@ TEST_CASE("mistakes of a study say where and how to mend", "[sweep]") {
   CHECK_THAT(mistakes("[slurm]\noptions = [\"rm -rf\"]\n"), ContainsSubstring("must be an option of sbatch"));
   CHECK_THAT(mistakes("retries = -1\n"), ContainsSubstring("retries: must be a whole number from 0"));
   CHECK_THAT(mistakes("[grid]\n\"parts.upper.position[3]\" = [1]\n"), ContainsSubstring("there is no [3]"));
+}
+
+TEST_CASE("mistakes in overrides say where in the study or its table they stand", "[sweep]") {
+  const auto mistakes = [](const std::string& text, const std::string& csv = "") {
+    return StudyFolder(text, csv).mistakes();
+  };
+  CHECK_THAT(mistakes("[grid]\ntime.edn = [1e-3]\n"),
+             ContainsSubstring("study.toml:4: [time] edn: unknown key; did you mean 'end'?"));
+  CHECK_THAT(mistakes("[common]\ntime.end = 1e-3\ncontacts.betwen.friction = 1\n"),
+             ContainsSubstring("study.toml:5: contacts.betwen.friction: the file has no contact 'betwen'"));
+  CHECK_THAT(mistakes("[[list]]\ntime.end = 1e-3\n[[list]]\ntime.end = -1\n"), ContainsSubstring("study.toml:6: "));
+  CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end,contacts.between.frction\n# none\n1e-3,0.1\n"),
+             ContainsSubstring("members.csv:3: [contacts.between] frction: unknown key; did you mean 'friction'?"));
+  CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end,time.edn\n1e-3,\n"),
+             ContainsSubstring("members.csv:1: time.edn: no line has a value in this column"));
+  CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end,\n1e-3,1\n"),
+             ContainsSubstring("members.csv:1: column 2 has no heading"));
+  CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end,time.end [s]\n1e-3,1e-4\n"),
+             ContainsSubstring("members.csv:1: time.end: has two columns"));
+  CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end [ms]\n1\n"),
+             ContainsSubstring("members.csv:1: time.end: is in s, not in [ms]"));
+}
+
+TEST_CASE("figures that the case cannot have are mistakes of the study", "[sweep]") {
+  const auto mistakes = [](const std::string& text) { return StudyFolder(text).mistakes(); };
+  CHECK_THAT(mistakes("[figures]\nok = \"energy.kinetic\"\na = \"patch.betwen.area\"\n"),
+             ContainsSubstring("study.toml:5: [figures] a: there is no contact 'betwen' in ") &&
+                 ContainsSubstring("did you mean 'between'?"));
+  CHECK_THAT(mistakes("[common]\noutput.contact_fields = [\"normal_force\"]\n[figures]\na = "
+                      "\"patch.between.area\"\n"),
+             ContainsSubstring("study.toml:6: [figures] a: ") && ContainsSubstring("leaves out 'tangential_force'"));
+  CHECK_THAT(mistakes("[figures]\na = {of = \"energy.kinetic\", from = 2e-3}\n"),
+             ContainsSubstring("study.toml:4: [figures] a: from is 0.002 s, after the end of the run"));
+  CHECK_THAT(mistakes("[common]\noutput.history_interval = 1e-4\n[figures]\na = {of = \"energy.kinetic\", from = "
+                      "8.5e-4}\n"),
+             ContainsSubstring("there are 3 samples at most from 0.00085 s to 0.001 s, of which 4 are wanted"));
+  CHECK(mistakes("[common]\noutput.history_interval = 1e-4\n[figures]\na = {of = \"energy.kinetic\", from = "
+                 "7e-4}\n")
+            .empty());
+  const std::string amid = "[figures]\na = {of = \"patch.between.area\", from = 4e-4, to = 5e-4}\n";
+  CHECK_THAT(mistakes(amid), ContainsSubstring("study.toml:4: [figures] a: no output lies from 0.0004 s to 0.0005 s"));
+  CHECK(mistakes("[common]\noutput.field_interval = 1e-4\n" + amid).empty());
+  CHECK(mistakes("[figures]\na = {of = \"patch.between.area\", from = 4e-4}\n").empty());
+  CHECK_THAT(mistakes("[figures]\na = \"mode.1.frequency\"\n[modes]\nparts = [\"uper\"]\n"),
+             ContainsSubstring("study.toml:5: [modes] parts: there is no part or point mass 'uper'") &&
+                 ContainsSubstring("did you mean 'upper'?"));
+  CHECK_THAT(mistakes("[grid]\ntime.end = [1e-3, 1e-4]\n[figures]\na = {of = \"energy.kinetic\", from = 5e-4}\n"),
+             ContainsSubstring("member 2 (end=0.0001)"));
+}
+
+TEST_CASE("histories that no run will write are found with the case's meshes", "[sweep]") {
+  const auto mistakes = [](const std::string& figure, const std::string& more = "") {
+    const StudyFolder folder(
+        "[common]\noutput.history_sets = [\"upper.z_max\", \"upper.z_min\"]\n[figures]\nfirst = "
+        "\"energy.kinetic\"\na = \"" +
+        figure + "\"\n" + more);
+    const Study study = folder.read();
+    case_file::Complaints complaints(study.path);
+    check_histories(study.figures, read_case(study.case_file, study.members.front().overrides), complaints);
+    return complaints.empty() ? std::string() : complaints.lines().front();
+  };
+  for (const char* good : {"upper.z_max.velocity.x", "energy.friction", "contact.between.normal_force.size",
+                           "upper.z_max.displacement.0,1,1", "upper.z_max+upper.z_min.velocity.z"})
+    CHECK(mistakes(good).empty());
+  CHECK_THAT(mistakes("energy.frction"),
+             ContainsSubstring("study.toml:7: [figures] a: ") && ContainsSubstring("did you mean 'friction'?"));
+  CHECK_THAT(mistakes("contact.between.nodes"), ContainsSubstring("a contact has no 'nodes'"));
+  CHECK_THAT(mistakes("contact.tread.normal_force.z"),
+             ContainsSubstring("there is no such contact; known are: between"));
+  CHECK_THAT(mistakes("upper.y_max.velocity.z"), ContainsSubstring("there is no history of a set 'upper.y_max'"));
+  CHECK_THAT(mistakes("upper.z_max.stress.zz"), ContainsSubstring("the run wrote the stress or strain of no set"));
+  CHECK_THAT(mistakes("upper.z_max.velocity"), ContainsSubstring("needs a direction at its end"));
+  CHECK_THAT(mistakes("upper.z_*.velocity.z"), ContainsSubstring("finds 2 histories; name one"));
+  CHECK_THAT(mistakes("load.push.force.z"), ContainsSubstring("the run has no load"));
+  CHECK_THAT(mistakes("patch.between.area", "[patches]\naxle = \"upper.x_max\"\n"),
+             ContainsSubstring("study.toml:8: [patches] axle: the run does not write the velocity of a set "
+                               "'upper.x_max'"));
 }
 
 TEST_CASE("members are chosen by numbers and ranges, or as the share of a job", "[sweep]") {

@@ -159,6 +159,15 @@ class Whole(SweepTest):
         self.assertIn("member 6: friction=0.4, velocity[0]=6: to be run", done.stdout)
         self.assertFalse((self.folder / "out").exists())
 
+    def test_scripts_of_slurm_take_the_processors_that_they_ask_for(self):
+        study = write(self.folder, studies.GRID + studies.FIGURES + "[slurm]\ncpus_per_job = 3\n")
+        said = sweep(study, "--slurm", "4", "--dry-run").stdout
+        self.assertIn("#SBATCH --array=1-4\n", said)
+        self.assertIn("#SBATCH --cpus-per-task=3\n", said)
+        self.assertIn('--job "$SLURM_ARRAY_TASK_ID/4" --jobs 3 --threads 1 --no-pictures', said)
+        self.assertIn("--collect", said)
+        self.assertFalse((self.folder / "out").exists())
+
     def test_pictures(self):
         study = write(self.folder, "[grid]\ncontacts.between.friction = [0.1, 0.2]\n" + HEAT)
         done = subprocess.run([PROGRAM, "sweep", study], capture_output=True, text=True, cwd=self.folder)
@@ -317,12 +326,24 @@ heat = "energy.friction"
         self.assertEqual(times_run(members(study)[0]), 1)
         self.assertEqual(leftovers(study), [])
 
+    def test_a_figure_that_no_run_can_have_is_said_before_the_first(self):
+        wrong = "[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.frction\"\n"
+        study = write(self.folder, wrong)
+        for options in ((), ("--dry-run",), ("--slurm", "2"), ("--snakemake",)):
+            done = sweep(study, *options)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("study.toml:7: [figures] heat: ", done.stderr)
+            self.assertIn("did you mean 'friction'?", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
     def test_figures_that_cannot_be_collected_keep_the_run(self):
-        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.frction\"\n")
+        # Fields are written every 1e-5 s: none lies in between.
+        between = "[figures]\narea = {of = \"patch.between.area\", from = 1.2e-5, to = 1.8e-5}\n"
+        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.2]\n" + between)
         done = sweep(study)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertEqual(rows(study)[0]["status"], "failed")
-        self.assertIn("[figures] heat", rows(study)[0]["reason"])
+        self.assertIn("[figures] area", rows(study)[0]["reason"])
         write(self.folder, "[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.friction\"\n")
         self.assertEqual(sweep(study).returncode, 0)
         self.assertTrue(math.isfinite(float(rows(study)[0]["heat [J]"])))

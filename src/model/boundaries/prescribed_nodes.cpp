@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "case/error.hpp"
+#include "case/perpendicular.hpp"
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/build_steps.hpp"
@@ -52,20 +54,28 @@ void refuse_jump(const scene::Scene& scene, const scene::PrescribedMotion& motio
       scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
 }
 
+/// Two motions that prescribe the same component of a node's motion: the later one would win in silence.
+void refuse_shared_directions(const AssembledScene& assembled) {
+  std::map<int, std::vector<const scene::PrescribedMotion*>> of_node;
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
+    for (int n : find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target)) {
+      for (const scene::PrescribedMotion* before : of_node[n])
+        if (!perpendicular(*before, motion))
+          throw InputError(fmt::format(
+              "{}:{}: [prescribed_motion.{}]: the node of '{}' at {} is moved in the same directions by "
+              "[prescribed_motion.{}] (line {}), whose '{}' has it too; leave it out of one of the two sets, or: {}",
+              assembled.scene.path, motion.line, motion.name, motion.target, place_text(assembled.assembly.nodes[n]),
+              before->name, before->line, before->target, perpendicular_advice));
+      of_node[n].push_back(&motion);
+    }
+}
+
 }  // namespace
 
 void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed) {
-  std::vector<char> taken(assembled.assembly.nodes.size(), 0);
+  refuse_shared_directions(assembled);
   for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-    for (int n : nodes) {
-      if (taken[n] != 0)
-        throw InputError(
-            fmt::format("{}:{}: [prescribed_motion.{}]: a node of '{}' has a prescribed motion already; name sets "
-                        "without common nodes",
-                        assembled.scene.path, motion.line, motion.name, motion.target));
-      taken[n] = 1;
-    }
     PrescribedSet set;
     set.number = static_cast<int>(prescribed.size());
     set.motion = &motion;

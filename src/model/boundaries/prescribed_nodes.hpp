@@ -12,7 +12,7 @@ namespace railwave {
 struct NodalState;
 
 /// A node set that moves as a rigid motion says, in the directions that are prescribed. In the others forces move its
-/// nodes. No node is of two such sets.
+/// nodes, or another such set whose directions are perpendicular: then each has the work and the force along its own.
 struct PrescribedSet {
   int number = 0;  ///< among the scene's prescribed motions
   const scene::PrescribedMotion* motion = nullptr;

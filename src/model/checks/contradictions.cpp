@@ -32,7 +32,7 @@ std::string along(const Vec3& d) { return fmt::format("({:.4g}, {:.4g}, {:.4g})"
 
 /// A prescribed motion that moves nodes which a constraint holds: one of both would win in silence.
 void refuse_moved_constraints(const AssembledScene& assembled) {
-  std::map<int, std::pair<const scene::PrescribedMotion*, Prescribed>> moved;
+  std::multimap<int, std::pair<const scene::PrescribedMotion*, Prescribed>> moved;
   double fastest = 0, farthest = 0;
   for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
@@ -41,28 +41,29 @@ void refuse_moved_constraints(const AssembledScene& assembled) {
       const Prescribed here = prescribed_at(motion, centre, assembled.assembly.nodes[n]);
       fastest = std::max(fastest, length(here.velocity));
       farthest = std::max(farthest, length(here.displacement));
-      moved[n] = {&motion, here};
+      moved.emplace(n, std::make_pair(&motion, here));
     }
   }
   if (moved.empty()) return;
   constexpr double rounding = 1e-6;
   for (const scene::Constraint& constraint : assembled.scene.constraints)
     for (int n : find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target)) {
-      const auto found = moved.find(n);
-      if (found == moved.end()) continue;
-      const auto& [motion, here] = found->second;
-      for (int a = 0; a < 3; ++a) {
-        if (!constraint.fixed[a]) continue;
-        const double speed = dot(here.velocity, constraint.axes[a]), way = dot(here.displacement, constraint.axes[a]);
-        const bool fast = std::fabs(speed) > rounding * fastest, far = std::fabs(way) > rounding * farthest;
-        if (!fast && !far) continue;
-        refuse(assembled.scene, "constraints", constraint,
-               fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; "
-                           "leave the common nodes of '{}' and '{}' out of one of the "
-                           "two, or give only the other `directions`",
-                           place_text(assembled.assembly.nodes[n]), along(constraint.axes[a]), motion->name,
-                           motion->line, fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way),
-                           constraint.target, motion->target));
+      const auto [first, last] = moved.equal_range(n);
+      for (auto found = first; found != last; ++found) {
+        const auto& [motion, here] = found->second;
+        for (int a = 0; a < 3; ++a) {
+          if (!constraint.fixed[a]) continue;
+          const double speed = dot(here.velocity, constraint.axes[a]), way = dot(here.displacement, constraint.axes[a]);
+          const bool fast = std::fabs(speed) > rounding * fastest, far = std::fabs(way) > rounding * farthest;
+          if (!fast && !far) continue;
+          refuse(assembled.scene, "constraints", constraint,
+                 fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; "
+                             "leave the common nodes of '{}' and '{}' out of one of the "
+                             "two, or give only the other `directions`",
+                             place_text(assembled.assembly.nodes[n]), along(constraint.axes[a]), motion->name,
+                             motion->line, fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way),
+                             constraint.target, motion->target));
+        }
       }
     }
 }

@@ -41,30 +41,22 @@ class BodyWay {
                   scaled(0.5, cross(unit, difference(initial_velocity(assembled, part, sum(place, unit)), velocity_))));
     }
     for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
-      if (part_of_name(motion.target) == part) prescribed_ = &motion;
-    if (prescribed_ == nullptr) return;
-    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, *prescribed_, "target", prescribed_->target);
-    const Vec3 own = centre_of_rotation(assembled, *prescribed_, nodes);
-    prescribed_velocity_ = sum(prescribed_->velocity, cross(prescribed_->angular_velocity, difference(place, own)));
-    if (length(prescribed_->angular_velocity) > 0) {
-      spin_ = prescribed_->angular_velocity;
-      spin_curve_ = curve_of(assembled.scene, prescribed_->curve);
-    }
+      if (part_of_name(motion.target) == part) drive(motion, place);
   }
 
   /// m, of the centre
   Vec3 travel(double time) const {
     Vec3 way = scaled(time, velocity_);
-    if (prescribed_ == nullptr) return way;
-    const Vec3 wanted =
-        sum(scaled(curve_integral(curve_of(assembled_.scene, prescribed_->curve), time), prescribed_velocity_),
-            scaled(prescribed_->displacement_curve.empty()
-                       ? 0
-                       : curve_value(curve_of(assembled_.scene, prescribed_->displacement_curve), time),
-                   prescribed_->displacement));
-    for (int a = 0; a < 3; ++a)
-      if (prescribed_->directions[a])
-        way = sum(way, scaled(dot(difference(wanted, way), prescribed_->axes[a]), prescribed_->axes[a]));
+    for (const Driven& driven : driven_) {
+      const scene::PrescribedMotion& motion = *driven.motion;
+      const Vec3 wanted = sum(scaled(curve_integral(curve_of(assembled_.scene, motion.curve), time), driven.velocity),
+                              scaled(motion.displacement_curve.empty()
+                                         ? 0
+                                         : curve_value(curve_of(assembled_.scene, motion.displacement_curve), time),
+                                     motion.displacement));
+      for (int a = 0; a < 3; ++a)
+        if (motion.directions[a]) way = sum(way, scaled(dot(difference(wanted, way), motion.axes[a]), motion.axes[a]));
+    }
     return way;
   }
 
@@ -77,9 +69,24 @@ class BodyWay {
   }
 
  private:
+  struct Driven {
+    const scene::PrescribedMotion* motion;
+    Vec3 velocity;  ///< m/s, of the centre, where the motion's curve is 1
+  };
+
+  void drive(const scene::PrescribedMotion& motion, const Vec3& place) {
+    const auto& nodes = find_node_set(assembled_.scene, assembled_.assembly, motion, "target", motion.target);
+    const Vec3 own = centre_of_rotation(assembled_, motion, nodes);
+    driven_.push_back({&motion, sum(motion.velocity, cross(motion.angular_velocity, difference(place, own)))});
+    if (length(motion.angular_velocity) > 0) {
+      spin_ = motion.angular_velocity;
+      spin_curve_ = curve_of(assembled_.scene, motion.curve);
+    }
+  }
+
   const AssembledScene& assembled_;
-  Vec3 centre_, velocity_{0, 0, 0}, spin_{0, 0, 0}, prescribed_velocity_{0, 0, 0};
-  const scene::PrescribedMotion* prescribed_ = nullptr;
+  Vec3 centre_, velocity_{0, 0, 0}, spin_{0, 0, 0};
+  std::vector<Driven> driven_;
   const scene::Curve* spin_curve_ = nullptr;
 };
 

@@ -44,7 +44,8 @@ struct MotionHistories {
   Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
   PartedLists parts;          ///< one list for each set
   Array<int*> driven;         ///< row in `driven_change` of nodes that a prescribed motion moves, else -1; empty: none
-  Array<double* [6]> driven_change;  ///< of these, set after set: see PrescribedChange
+  Array<int*> driven_rows;    ///< see PrescribedChange
+  Array<double* [6]> driven_change;  ///< of all nodes that prescribed motions move: likewise
 };
 
 /// Loads, connectors, and the node sets that both act on or that histories follow.

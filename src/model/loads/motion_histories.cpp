@@ -11,16 +11,20 @@ namespace railwave {
 
 namespace {
 
-/// Rows of the nodes that prescribed motions move, set after set; -1: none does.
+/// Rows of the nodes that prescribed motions move; -1: none does.
 void find_driven(const std::vector<int>& nodes, const std::vector<PrescribedSet>& prescribed,
                  MotionHistories& histories) {
   std::map<int, int> row;
+  std::vector<int> rows, driven;
   for (const PrescribedSet& set : prescribed)
-    for (int n : to_vector(set.nodes)) row.emplace(n, static_cast<int>(row.size()));
-  std::vector<int> driven;
+    for (int n : to_vector(set.nodes)) {
+      const auto [entry, is_new] = row.emplace(n, static_cast<int>(row.size()));
+      rows.push_back(is_new ? entry->second : ~entry->second);
+    }
   for (int n : nodes) driven.push_back(row.count(n) != 0 ? row[n] : -1);
   if (std::all_of(driven.begin(), driven.end(), [](int r) { return r < 0; })) return;
   histories.driven = to_device("driven nodes of motion histories", driven);
+  histories.driven_rows = to_device("rows of driven nodes", rows);
   histories.driven_change = Array<double* [6]>("motion of driven nodes", row.size());
 }
 

@@ -162,7 +162,8 @@ void find_driven_changes(const NodalState& nodal, const MotionHistories& histori
   for (const PrescribedSet& set : nodal.prescribed) {
     const int count = static_cast<int>(set.nodes.extent(0));
     Kokkos::parallel_for("motion_of_driven_nodes", Range(0, count),
-                         PrescribedChange{prescribed_instant(nodal, set), set.nodes, first, histories.driven_change});
+                         PrescribedChange{prescribed_instant(nodal, set), set.nodes, histories.driven_rows, first,
+                                          histories.driven_change});
     first += count;
   }
 }

@@ -63,8 +63,6 @@ void elements(const AssembledScene& assembled, const StepSizes& sizes, std::vect
 
 void contact_springs(const StepSizes& sizes, const std::vector<ContactPair>& contacts, std::vector<Cause>& causes) {
   const StableStep& stable = sizes.stable_step;
-  // The global estimate counts the springs that press: within it they are no cause, however short their own step is.
-  if (stable.global > 0 && sizes.step_size <= stable.global) return;
   const double ratio = stable.contact > 0 ? sizes.step_size / stable.contact : 0;
   // Below that the elements under the springs set it.
   if (!(ratio > 1) || stable.contact > 0.95 * stable.elements) return;
@@ -116,6 +114,10 @@ void connectors(const AssembledScene& assembled, const StepSizes& sizes, const s
 std::vector<Cause> steps_too_long(const AssembledScene& assembled, const StepSizes& sizes,
                                   const std::vector<ConnectorCell>& cells, const std::vector<ContactPair>& contacts) {
   std::vector<Cause> causes;
+  // The global estimate counts elements with their control and damping, springs that press, connectors and beams:
+  // within it none of them is a cause, however short its own step is.
+  const double global = sizes.stable_step.global;
+  if (global > 0 && sizes.step_size <= global) return causes;
   elements(assembled, sizes, causes);
   contact_springs(sizes, contacts, causes);
   connectors(assembled, sizes, cells, causes);

@@ -65,6 +65,7 @@ Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const
   evidence_.worst_shape = made.worst_shape;
   energy_of_rounding_ = made.energy_of_rounding;
   energy_of_rest_ = made.energy_of_rest;
+  energy_of_places_ = made.energy_of_places;
   parts_.resize(assembled.assembly.parts.size());
   if (!contacts.empty()) ends_ = std::make_unique<EndMonitor>(assembled, nodal, contacts, others);
 }
@@ -191,6 +192,7 @@ double Monitor::floor_of_error(const HistorySample& sample) const {
       given_ * (rounding_of_step * steps + turning * turn * turn) + work_ * turning * turned_by_loads * turned_by_loads;
   if (assembled_.scene.solver.precision == scene::Precision::single_precision)
     floor += rounding_of_single_step * steps * work_;
+  floor += (1 + static_cast<double>(sample.step)) * energy_of_places_;
   return floor + steps * energy_of_rest_ + std::min(energy_of_rounding_, rounding_of_single_step * given_);
 }
 

@@ -22,6 +22,7 @@ struct SceneAsMade {
   double energy_of_rounding = 0;  ///< J, elastic, of what rounding strains elements in single precision by
   double energy_of_rest = 0;  ///< J, elastic, of what the rounding of places strains elements by: what a scene at rest
                               ///< has of energies, and takes in a step
+  double energy_of_places = 0;  ///< J, that the same rounding makes or takes in a step of gravity's work and of springs
 
   // Lines of the summary about sets that were asked for by position:
   std::vector<std::string> node_set_warnings, element_set_warnings;
@@ -148,6 +149,7 @@ class Monitor {
   double work_ = 0;                       ///< J, the most that loads have worked
   double energy_of_rounding_ = 0;         ///< J, see SceneAsMade
   double energy_of_rest_ = 0;             ///< J, the same
+  double energy_of_places_ = 0;           ///< J, the same
   double rate_at_start_ = 0;              ///< 1/s, at which the fastest turning body begins to turn
   double share_ = 0, kinetic_share_ = 0;  ///< error of the balance, and kinetic energy beyond what was given, beyond
                                           ///< what they can't help, over `deformation_`

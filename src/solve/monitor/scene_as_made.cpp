@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/sets/place_sets.hpp"
 #include "solve/monitor/monitor.hpp"
 
@@ -33,10 +34,26 @@ double rounding_energy(const AssembledScene& assembled) {
   return energy;
 }
 
-double rest_energy(const AssembledScene& assembled) {
-  double largest = 0, energy = 0;
-  for (const Vec3& place : assembled.assembly.nodes)
+/// m
+double largest_coordinate(const Assembly& assembly) {
+  double largest = 0;
+  for (const Vec3& place : assembly.nodes)
     for (double x : place) largest = std::max(largest, std::fabs(x));
+  return largest;
+}
+
+/// Gravity's work and the springs' energy go by places, kinetic energy by velocities: in a step they part by these
+/// forces times half a unit in the last place.
+double place_energy(const AssembledScene& assembled) {
+  double force = 0;  // N
+  for (double mass : assembled.mass) force += mass * length(assembled.scene.gravity);
+  for (const scene::Connector& connector : assembled.scene.connectors) force += length(connector.preload);
+  return force * 0.5 * std::numeric_limits<double>::epsilon() * largest_coordinate(assembled.assembly);
+}
+
+double rest_energy(const AssembledScene& assembled) {
+  const double largest = largest_coordinate(assembled.assembly);
+  double energy = 0;
   for (const auto& part : assembled.assembly.parts)
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
       const double strain = 8 * 0.5 * std::numeric_limits<double>::epsilon() * largest / assembled.element_length[e];
@@ -63,6 +80,7 @@ SceneAsMade::SceneAsMade(const AssembledScene& assembled)
   worst_shape = smallest_jacobian(assembled.assembly);
   energy_of_rounding = rounding_energy(assembled);
   energy_of_rest = rest_energy(assembled);
+  energy_of_places = place_energy(assembled);
 }
 
 }  // namespace railwave

@@ -31,6 +31,12 @@ constexpr double worthwhile_growth = 1.1;
 /// stops.
 constexpr double least_left = 0.05;
 
+long layouts_of(const std::vector<ContactPair>& contacts) {
+  long all = 0;
+  for (const ContactPair& pair : contacts) all += pair.layouts;
+  return all;
+}
+
 }  // namespace
 
 DeformedStep::DeformedStep(const Model& model, DeformedElements elements, SampledRanks* others)
@@ -43,6 +49,10 @@ DeformedStep::DeformedStep(const Model& model, DeformedElements elements, Sample
       elements_(std::move(elements)),
       fast_(striking_speed(model)),
       undeformed_(model.stable_step.limit) {}
+
+bool DeformedStep::may_strike() const { return 2 * speed_ > fast_ && (2 * approach_ > fast_ || window_is_new()); }
+
+bool DeformedStep::window_is_new() const { return layouts_ != layouts_of(contacts_); }
 
 bool DeformedStep::contact_checked_before(long step) const {
   return std::any_of(contacts_.begin(), contacts_.end(),
@@ -85,6 +95,10 @@ bool DeformedStep::check_again() {
 bool DeformedStep::check(double size) {
   const long step = nodal_.step, cycle = nodal_.subcycling.cycle();
   if (nodal_.relative.begun) update_absolute_nodes(nodal_);
+  if (step >= next_ || window_is_new()) {
+    approach_ = fastest_approach(nodal_, contacts_);
+    layouts_ = layouts_of(contacts_);
+  }
   const double to_strike = may_strike() ? steps_to_strike(nodal_, contacts_, fast_, sizes_.step_size)
                                         : std::numeric_limits<double>::infinity();
   const bool strikes = to_strike < most_at_rest;
@@ -114,8 +128,8 @@ bool DeformedStep::check(double size) {
     steps =
         std::fmin(steps, share_of_way_at_rest * (left - alarm) * static_cast<double>(step - last_) / (left_ - left));
   }
-  // What lies on the other body from the beginning is met in the first step.
-  if (step == 0 && may_strike()) {
+  // What lies on the other body from the beginning is met in the first step, before there are windows.
+  if (step == 0 && 2 * speed_ > fast_) {
     steps = 1;
     moving_ = true;
   }

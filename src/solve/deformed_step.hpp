@@ -10,8 +10,9 @@ namespace railwave {
 
 /// Follows elements that change their shape, so that no step is longer than they allow (docs/stability.md). Checks are
 /// rare where nothing deforms: at steps 16, 32, 64 ... and every 512. Where elements do, the next check comes when half
-/// of the steps are over in which they could come in the way, moving on as now. Bodies so fast that a blow could
-/// squeeze elements between two checks are looked at when their contacts are, and checked when they meet.
+/// of the steps are over in which they could come in the way, moving on as now. Bodies so fast, where they can touch,
+/// that a blow could squeeze elements between two checks are looked at when their contacts are, and checked when they
+/// meet. A wheel's top goes twice as fast as the train, and what is near the rail hardly moves against it.
 class DeformedStep {
  public:
   /// @param elements those of this process
@@ -45,6 +46,8 @@ class DeformedStep {
     archive.value("deformed_last", last_);
     archive.value("deformed_left", left_);
     archive.value("deformed_speed", speed_);
+    archive.value("deformed_approach", approach_);
+    archive.value("deformed_layouts", layouts_);
     archive.value("deformed_striking", striking_);
     archive.value("deformed_moving", moving_);
     archive.value("deformed_given_up", given_up_);
@@ -52,7 +55,8 @@ class DeformedStep {
 
  private:
   bool contact_checked_before(long step) const;
-  bool may_strike() const { return 2 * speed_ > fast_; }
+  bool may_strike() const;
+  bool window_is_new() const;
   bool check(double size);
   double used_share() const;
   DeformedNow measure_now(double elements) const;
@@ -71,6 +75,8 @@ class DeformedStep {
   long last_ = 0;          ///< of the last one
   double left_ = 1;        ///< share of the limit that was left then
   double speed_ = 0;       ///< m/s, of the fastest element then
+  double approach_ = 0;    ///< m/s, of a node in the contacts' windows against the other body, at most
+  long layouts_ = -1;      ///< of windows, when that was found: a new one has other nodes
   bool striking_ = false;  ///< nodes were about to strike then
   bool given_up_ = false;  ///< the step was too long for too long, see beyond_help
   bool moving_ = false;    ///< elements were coming in the way then

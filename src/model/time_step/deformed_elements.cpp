@@ -136,12 +136,31 @@ void join(DeformedAhead& own, const DeformedAhead& other) {
   own.loss = std::fmax(own.loss, other.loss);
 }
 
+namespace {
+
+TrackedMotion tracked_motion(const NodalState& nodal, const ContactPair& pair) {
+  return {pair.arrays, pair.window, nodal.nodes.position, nodal.nodes.velocity};
+}
+
+}  // namespace
+
+double fastest_approach(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
+  double fastest = 0;
+  Reductions reductions(*nodal.reduction_space);
+  for (const ContactPair& pair : contacts)
+    reductions.largest(Approach{tracked_motion(nodal, pair)}, pair.window.count, [&](const Largest<1>& of) {
+      if (of.place[0] >= 0) fastest = std::fmax(fastest, of.value[0]);
+    });
+  reductions.fetch();
+  return fastest;
+}
+
 double steps_to_strike(const NodalState& nodal, const std::vector<ContactPair>& contacts, double fast, double step) {
   double least = std::numeric_limits<double>::infinity();
   Reductions reductions(*nodal.reduction_space);
   for (const ContactPair& pair : contacts)
-    reductions.largest(StrikeAhead{pair.arrays, pair.window, nodal.nodes.position, nodal.nodes.velocity, fast, step},
-                       pair.window.count, [&](const Largest<1>& of) {
+    reductions.largest(StrikeAhead{tracked_motion(nodal, pair), fast, step}, pair.window.count,
+                       [&](const Largest<1>& of) {
                          if (of.place[0] >= 0 && of.value[0] > -1e299) least = std::fmin(least, -of.value[0]);
                        });
   reductions.fetch();

@@ -45,6 +45,10 @@ DeformedAhead measure_ahead(const DeformedElements& elements, const NodalState& 
 void join(DeformedNow& own, const DeformedNow& other);
 void join(DeformedAhead& own, const DeformedAhead& other);
 
+/// The largest speed of a slave node in a contact's window against the segment that it is tracked over, m/s: none of
+/// those that can touch before the window is built again closes in faster, as they move now.
+double fastest_approach(const NodalState& nodal, const std::vector<ContactPair>& contacts);
+
 /// Steps until slave nodes touch that close in on their master faster than `fast`, m/s; infinite: none does. It knows
 /// nodes that the last check of the contact has found near, which holds for 64 steps.
 double steps_to_strike(const NodalState& nodal, const std::vector<ContactPair>& contacts, double fast, double step);

@@ -90,6 +90,11 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
     return failed;
   }
   if (!transport) return failed;
+  try {
+    wanted_row_way(*transport);
+  } catch (const InputError&) {
+    return wrong_input;  // rank 0 says it
+  }
   const KokkosScope kokkos;
   Model model;
   const int built = build(case_file, overrides, *transport, model);
@@ -103,7 +108,9 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   return done;
 }
 
-OtherRanks::OtherRanks() : transport_(begin_mpi()) {}
+OtherRanks::OtherRanks() : transport_(begin_mpi()) {
+  if (transport_) wanted_row_way(*transport_);  // a mistake is said before there is anything to wait for
+}
 
 OtherRanks::~OtherRanks() {
   if (!transport_ || transport_->followers_have_ended) return;

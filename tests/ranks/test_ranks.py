@@ -28,6 +28,7 @@ FINER = {"divisions = [6, 5, 3]": "divisions = [14, 12, 9]", "divisions = [5, 5,
 SHARES = {"windows": 0.4, "global_step": 0.4, "deforming": 0.4, "automatic_step": 0.7}
 OF_ONE_RANK = ("float", "float_multiplier")
 PATIENCE = 300
+BY_MPI = {"RAILWAVE_RANK_MESSAGES": "mpi"}
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1")
 if os.geteuid() == 0:
@@ -98,6 +99,13 @@ class Ranks(unittest.TestCase):
                     found[int(word.partition(b"=")[2])] = child
         return [found[rank] for rank in sorted(found)]
 
+    def need_mpi_of_devices(self):
+        self.write(scene("penalty", 0.02))
+        said, _ = self.start(2, **BY_MPI).communicate(timeout=PATIENCE)
+        if "does not say that it takes the GPU's memory" in said:
+            self.skipTest("this MPI takes no GPU's memory")
+        self.results.unlink()
+
     def when_it_runs(self, run):
         while not self.checkpoint.exists() and run.poll() is None:
             time.sleep(0.005)
@@ -129,6 +137,22 @@ def add_kinds(tests, numbers_of_ranks):
 
 
 add_kinds(SameResults, (2, 3))
+
+
+class ByMpi(Ranks):
+    """Rows that MPI is given where the device has them. On a processor that is the host's memory; steps go in the order
+    of a GPU's."""
+
+    def test_same_results(self):
+        self.need_mpi_of_devices()
+        for name in ("multiplier", "much_else", "mixed"):
+            self.write(scene(name))
+            self.run_to_end(1)
+            alone = self.kept("alone.h5")
+            for ranks in (2, 3):
+                said = self.run_to_end(ranks, **BY_MPI)
+                self.assertIn(f"{ranks} ranks, rows by MPI from the device's memory;", said)
+                self.assert_same(alone, self.kept(f"{ranks}.h5"))
 
 
 class Sampling(Ranks):
@@ -214,6 +238,23 @@ class Refusals(Ranks):
         self.assertIn("1: this process has another model than rank 0", run.stderr)
 
 
+class WaysOfRows(Ranks):
+    def test_that_there_are_not(self):
+        self.write(scene("penalty", 0.02))
+        said = self.run_to_end(2, code=2, RAILWAVE_RANK_MESSAGES="gpu")
+        self.assertEqual(said.count("RAILWAVE_RANK_MESSAGES is 'gpu': auto, nccl, mpi or host is wanted"), 1, said)
+        self.assertFalse(self.results.exists())
+        if "by NCCL" in self.run_to_end(2):
+            return
+        self.results.unlink()
+        said = self.start(2, RAILWAVE_RANK_MESSAGES="nccl").communicate(timeout=PATIENCE)[0]
+        self.assertRegex(said, "built without NCCL|NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join")
+
+    def test_through_the_host(self):
+        self.write(scene("penalty", 0.02))
+        self.assertIn("3 ranks, rows through the host;", self.run_to_end(3, RAILWAVE_RANK_MESSAGES="host"))
+
+
 class Ensembles(Ranks):
     """Members are dealt out to ranks; each is what it is alone."""
 
@@ -261,9 +302,10 @@ friction_work = "energy.friction"
 
 
 class LostRanks(Ranks):
-    def lose(self, rank, number):
+    def lose(self, rank, number, **environment):
         self.write(scene("penalty", field_interval=1e-5))
-        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="8")
+        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="8",
+                         **environment)
         self.when_it_runs(run)
         began = time.monotonic()
         os.kill(self.others(run)[rank], number)
@@ -282,6 +324,10 @@ class LostRanks(Ranks):
 
     def test_a_rank_that_stalls_ends_all(self):
         self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP))
+
+    def test_a_rank_that_stalls_where_mpi_has_the_rows_from_devices(self):
+        self.need_mpi_of_devices()
+        self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP, **BY_MPI))
 
 
 def need_ranks():

@@ -255,9 +255,8 @@ std::string RankLeader::summary() const {
   return fmt::format(
       "{} ranks, rows {}; to rank 0 came: energies {} times, {:.4g} kB each; histories {} times, {:.4g} kB each; the "
       "whole state {} times, {:.4g} kB each",
-      transport_.ranks(), exchange_->between_devices() ? "from GPU to GPU" : "through the host",
-      count(Transferred::energies), each(Transferred::energies), count(Transferred::histories),
-      each(Transferred::histories), count(Transferred::state), each(Transferred::state));
+      transport_.ranks(), description(exchange_->way()), count(Transferred::energies), each(Transferred::energies),
+      count(Transferred::histories), each(Transferred::histories), count(Transferred::state), each(Transferred::state));
 }
 
 void end_followers(Transport& transport) {

@@ -14,7 +14,6 @@
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
 #include "model/model.hpp"
-#include "model/ranks/block_partition.hpp"
 #include "output/free_memory.hpp"
 #include "solve/ranks/rank_team.hpp"
 
@@ -61,7 +60,6 @@ int build(const std::string& case_file, const std::vector<std::string>& override
     place_contact_zones(scene);
     std::vector<std::string> notes;
     build_model(scene, assemble(scene, notes), model, &transport);
-    refuse_on_ranks(model);
     return done;
   } catch (const InputError& error) {
     if (lacks_memory(error)) end_all(transport, error);

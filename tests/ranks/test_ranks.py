@@ -15,7 +15,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "tests" / "output"))
 try:
-    from blocks_case import KINDS as KINDS_OF_RUNS, case, different_arrays
+    from blocks_case import BEAMS, KINDS as KINDS_OF_RUNS, case, different_arrays
 except ImportError:
     sys.exit(77)
 
@@ -155,6 +155,45 @@ class ByMpi(Ranks):
                 said = self.run_to_end(ranks, **BY_MPI)
                 self.assertIn(f"{ranks} ranks, rows by MPI from the device's memory;", said)
                 self.assert_same(alone, self.kept(f"{ranks}.h5"))
+
+
+class StaticStarts(Ranks):
+    """Ranks multiply the elements' stiffness together while rank 0 searches the equilibrium by Newton's method."""
+
+    SETTLE = "[settle]\ncache = false\nmethod = \"newton\"\n"
+
+    def test_same_results(self):
+        for name in ("multiplier", "float"):
+            self.write(scene(name, 0.03) + self.SETTLE)
+            said = self.run_to_end(1)
+            self.assertRegex(said, r"settled after \d+ evaluations of the forces in [1-9]\d* steps of Newton's method")
+            alone = self.kept("alone.h5")
+            for ranks in (2, 3):
+                self.run_to_end(ranks)
+                self.assert_same(alone, self.kept(f"{ranks}.h5"))
+
+    def test_ties_and_beams(self):
+        self.write(scene("penalty", 0.03, more=BEAMS + self.SETTLE))
+        self.run_to_end(1)
+        alone = self.kept("alone.h5")
+        self.run_to_end(4)
+        self.assert_same(alone, self.kept("4.h5"))
+
+    def test_a_rank_that_stalls(self):
+        self.write(scene("multiplier") + self.SETTLE + "tolerance = 1e-14\n")
+        run = self.start(3, RAILWAVE_RANK_PATIENCE="3")
+        for line in run.stdout:
+            if line.startswith("settling: "):
+                break
+        os.kill(self.others(run)[2], signal.SIGSTOP)
+        said, _ = run.communicate(timeout=PATIENCE)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("rank 2 has not answered rank 0 for 3 s", said)
+
+    def test_what_is_found_while_the_scene_settles(self):
+        self.write(scene("multiplier") + self.SETTLE + "[points.loose]\nmass = 1\nposition = [0, 0, 1]\n")
+        said = self.run_to_end(3, code=2)
+        self.assertIn("loose", said)
 
 
 class Sampling(Ranks):

@@ -11,6 +11,7 @@
 #include "model/ranks/mesh_share.hpp"
 #include "model/time_step/deformed_elements.hpp"
 #include "solve/monitor/account.hpp"
+#include "solve/ranks/static_parts.hpp"
 #include "solve/step_recording.hpp"
 
 namespace railwave {
@@ -289,7 +290,11 @@ void end_followers(Transport& transport) {
 
 void follow_rank_0(Model& model, Transport& transport) {
   RankOrder first;
-  transport.broadcast(&first, sizeof first);
+  for (;;) {
+    transport.broadcast(&first, sizeof first);
+    if (first.kind != RankOrder::settle) break;
+    follow_static_parts(transport);
+  }
   if (first.kind == RankOrder::end) return;
   if (first.model != fingerprint(model))
     throw std::runtime_error(
@@ -384,6 +389,7 @@ void follow_rank_0(Model& model, Transport& transport) {
       case RankOrder::move:
         plans.advance(instant);
         break;
+      case RankOrder::settle:
       case RankOrder::deal_out:
       case RankOrder::end:
         return;

@@ -1,6 +1,7 @@
 #include "solve/ranks/row_exchange.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
 #include "kernels/support/milestone.hpp"

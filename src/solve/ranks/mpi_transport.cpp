@@ -89,7 +89,7 @@ class MpiTransport : public Transport {
     MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
-    takes_device_memory_ = takes_gpu_memory() || !on_device;  // the device is the host then
+    takes_device_memory_ = !on_device || takes_gpu_memory();
   }
   ~MpiTransport() override { MPI_Finalize(); }
   MpiTransport(const MpiTransport&) = delete;

@@ -78,7 +78,6 @@ int run_scene(const Arguments& arguments, const scene::Scene& scene, const RunFi
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model, others.transport());
   report("note", notes, std::cout);
-  if (others.transport() != nullptr) refuse_on_ranks(model);
   check_run_places(scene, files);  // again, now that meshes have read what they include
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
   results.check_disk_space(model, model);

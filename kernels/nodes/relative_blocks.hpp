@@ -129,13 +129,14 @@ struct RelativeBlockUpdate {
   RelativeAdvance nodes;
   Array<const PartialForce<float>*> partial;
   int first_partial;
+  Array<const int*> listed = {};  ///< blocks to move nodes of, one a team; empty: all
 
   using Staged = StagedNodes<float, false, true, RelativeAdvance>;
 
   static std::size_t scratch_size(const ElementBlocks& blocks) { return Staged::scratch_size(blocks.node_stride); }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
-    const int p = team.league_rank();
+    const int p = listed.extent(0) > 0 ? listed(team.league_rank()) : team.league_rank();
     const Staged staged(team, blocks.node_stride);
     staged.bring(team, blocks, p, nodes.nodes);
     team.team_barrier();

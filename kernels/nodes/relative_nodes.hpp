@@ -103,15 +103,23 @@ struct RelativeSharedUpdate {
   }
 };
 
-/// Makes the relative coordinates of nodes first, first + 1, ... from those in double precision.
+/// Nodes of a frame, or of these the ones that a rank has.
+struct FrameNodes {
+  int first;
+  Array<const int*> listed;  ///< empty: first, first + 1, ...; else the nodes there
+
+  KOKKOS_INLINE_FUNCTION int operator()(int k) const { return listed.extent(0) > 0 ? listed(first + k) : first + k; }
+};
+
+/// Makes the relative coordinates from those in double precision.
 struct MakeRelative {
   NodeArrays in_double;
   Array<RelativeNode*> node;
   FrameInstant frame;
-  int first;
+  FrameNodes number;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
-    const int n = first + k;
+    const int n = number(k);
     const Vector3 X = row(in_double.reference, n);
     const Vector3 d = row(in_double.position, n) - frame.position(X),
                   w = row(in_double.velocity, n) - frame.velocity_of(X);
@@ -131,10 +139,10 @@ struct MakeAbsolute {
   NodeArrays in_double;
   Array<const RelativeNode*> node;
   FrameInstant frame;
-  int first;
+  FrameNodes number;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
-    const int n = first + k;
+    const int n = number(k);
     if (in_double.external_row(n) >= 0 || in_double.constraint(n) >= 0) return;
     const RelativeNode own = node(n);
     const Vector3 X = row(in_double.reference, n), x = frame.position(X), v = frame.velocity_of(X);

@@ -14,7 +14,6 @@
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
 #include "model/model.hpp"
-#include "model/ranks/block_partition.hpp"
 #include "output/free_memory.hpp"
 #include "solve/ranks/rank_team.hpp"
 
@@ -61,7 +60,6 @@ int build(const std::string& case_file, const std::vector<std::string>& override
     place_contact_zones(scene);
     std::vector<std::string> notes;
     build_model(scene, assemble(scene, notes), model, &transport);
-    refuse_on_ranks(model);
     return done;
   } catch (const InputError& error) {
     if (lacks_memory(error)) end_all(transport, error);
@@ -90,6 +88,11 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
     return failed;
   }
   if (!transport) return failed;
+  try {
+    wanted_row_way(*transport);
+  } catch (const InputError&) {
+    return wrong_input;  // rank 0 says it
+  }
   const KokkosScope kokkos;
   Model model;
   const int built = build(case_file, overrides, *transport, model);
@@ -103,7 +106,9 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   return done;
 }
 
-OtherRanks::OtherRanks() : transport_(begin_mpi()) {}
+OtherRanks::OtherRanks() : transport_(begin_mpi()) {
+  if (transport_) wanted_row_way(*transport_);  // a mistake is said before there is anything to wait for
+}
 
 OtherRanks::~OtherRanks() {
   if (!transport_ || transport_->followers_have_ended) return;

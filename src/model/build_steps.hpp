@@ -48,7 +48,8 @@ void set_reference(const Assembly& assembly, const std::vector<char>& wanted, co
 /// node_arrays.cpp: positions as in the reference
 void put_at_reference(const NodeArrays& nodes);
 /// relative_coordinates.cpp: nodes in single precision
-void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
+/// @param rank whose blocks are filled; -1: all
+void build_relative_nodes(const AssembledScene& assembled, int rank, std::vector<ElementGroup>& groups, Ties& ties,
                           NodalState& nodal);
 /// beams.cpp: sections, masses, rotations
 void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);

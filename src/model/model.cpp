@@ -88,7 +88,7 @@ void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Tra
   fill_blocks(model, model.absorbing, all ? -1 : rank, model);
   model.filled = all;
   build_block_state(model, model.partial);
-  build_relative_nodes(model, model.elements, model.ties, model);
+  build_relative_nodes(model, all ? -1 : rank, model.elements, model.ties, model);
   build_motion_histories(model.ties, model.prescribed, model);
   build_sum_parts(model.nodes.count, model, model);
   model.left_out = what_is_left_out(model.scene);
@@ -136,6 +136,7 @@ void reset_to_start(Model& model) {
     pair.slaves_at_layout = {};
   }
   model.relative.begun = false;
+  model.relative.host_motion.clear();
   model.time = 0;
   model.step = 0;
   model.velocity_lag = 0;

@@ -55,8 +55,8 @@ void visit_arrays(const Named<Visitor>& visit, NodeArrays& nodes) {
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, RelativeNodes& relative) {
   visit(ArrayUse::run_state, "node", relative.node);
-  visit(ArrayUse::run_state, "shared_arm", relative.shared_arm);
-  visit(ArrayUse::run_state, "motion", relative.motion);
+  visit(ArrayUse::scratch, "shared_arm", relative.shared_arm);
+  visit(ArrayUse::scratch, "motion", relative.motion);
   visit(ArrayUse::run_state, "steps", relative.steps);
 }
 
@@ -101,7 +101,7 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   visit(ArrayUse::run_state, "damping_energy", group.damping.energy);
 
   visit(ArrayUse::constant, "relative_local", group.relative.local);
-  visit(ArrayUse::run_state, "carrier_arm", group.relative.arm);
+  visit(ArrayUse::scratch, "carrier_arm", group.relative.arm);
 }
 
 template <class Visitor>

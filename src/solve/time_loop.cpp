@@ -28,15 +28,16 @@ std::atomic<int> stop_requested{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 /// @return whether the run begins in equilibrium
-bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
+bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, Transport* others,
              const std::function<bool()>& go_on) {
   refuse_moving_held_nodes(model, model.nodes.reference);
   bool in_equilibrium = false;
   if (model.scene.settle.active) {
-    const SettleReport report = come_to_rest(model, settled, [&](const SettleReport& so_far) {
+    const auto report_and_go_on = [&](const SettleReport& so_far) {
       for (RunObserver* observer : observers) observer->settling(model, so_far);
       return go_on();
-    });
+    };
+    const SettleReport report = come_to_rest(model, settled, report_and_go_on, others);
     for (RunObserver* observer : observers) observer->settled(model, report);
     in_equilibrium = report.settled;
   }
@@ -62,7 +63,8 @@ class TimeLoop {
         observers_(observers),
         keeping_(keeping),
         doubts_(report_beginning()),
-        in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
+        in_equilibrium_(keeping.from ||
+                        prepare(model, observers, settled, keeping.transport, [this] { return may_go_on(); })),
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
         as_made_(model),
         leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),

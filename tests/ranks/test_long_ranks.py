@@ -5,7 +5,7 @@ and on three: bit for bit the results of one process."""
 import signal
 import unittest
 
-from test_ranks import KINDS, OF_ONE_RANK, PATIENCE, Ranks, add_kinds, need_ranks, scene
+from test_ranks import KINDS, PATIENCE, Ranks, add_kinds, need_ranks, scene
 
 
 class OnManyRanks(Ranks):
@@ -36,8 +36,7 @@ def add_restart(name):
 
 
 for name_ in KINDS:
-    if name_ not in OF_ONE_RANK:
-        add_restart(name_)
+    add_restart(name_)
 
 if __name__ == "__main__":
     need_ranks()

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A run over several ranks ends with the results of one process, bit for bit; so does one that is stopped and taken
-up on another number of ranks. What ranks do not compute yet is refused, and a rank that is lost ends all with a
-message."""
+up on another number of ranks. A rank that is lost ends all with a message."""
 
 import os
 import pathlib
@@ -16,7 +15,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "tests" / "output"))
 try:
-    from blocks_case import KINDS, case, different_arrays
+    from blocks_case import BEAMS, KINDS as KINDS_OF_RUNS, case, different_arrays
 except ImportError:
     sys.exit(77)
 
@@ -24,10 +23,15 @@ PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 # So many elements that each rank has blocks of its own, and some have no node that contact knows.
 FINER = {"divisions = [6, 5, 3]": "divisions = [14, 12, 9]", "divisions = [5, 5, 4]": "divisions = [12, 12, 9]",
          "divisions = [2, 2, 2]": "divisions = [4, 7, 8]"}
+# Weight that shears the lower block where it is held, far from contact, so that the step follows others' elements, too.
+LEANING = {**KINDS_OF_RUNS["deforming"]["instead"], "[0, 0, -1e5]": "[-9e6, 0, -9.81]",
+           "velocity = [2, 1, -2]": "velocity = [5, 1, -2]"}
+KINDS = {**KINDS_OF_RUNS, "float_deforming": {**KINDS_OF_RUNS["deforming"], "instead": LEANING, "end": 1.2e-4,
+                                              "more": '[solver]\nprecision = "float"\n'}}
 # Of the time that the kind of scene takes, until what it is about has happened: windows open, bodies meet.
-SHARES = {"windows": 0.4, "global_step": 0.4, "deforming": 0.4, "automatic_step": 0.7}
-OF_ONE_RANK = ("float", "float_multiplier")
+SHARES = {"windows": 0.4, "global_step": 0.4, "deforming": 0.4, "float_deforming": 1, "automatic_step": 0.7}
 PATIENCE = 300
+BY_MPI = {"RAILWAVE_RANK_MESSAGES": "mpi"}
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1")
 if os.geteuid() == 0:
@@ -98,6 +102,13 @@ class Ranks(unittest.TestCase):
                     found[int(word.partition(b"=")[2])] = child
         return [found[rank] for rank in sorted(found)]
 
+    def need_mpi_of_devices(self):
+        self.write(scene("penalty", 0.02))
+        said, _ = self.start(2, **BY_MPI).communicate(timeout=PATIENCE)
+        if "does not say that it takes the GPU's memory" in said:
+            self.skipTest("this MPI takes no GPU's memory")
+        self.results.unlink()
+
     def when_it_runs(self, run):
         while not self.checkpoint.exists() and run.poll() is None:
             time.sleep(0.005)
@@ -124,11 +135,65 @@ def add_kinds(tests, numbers_of_ranks):
         setattr(tests, "test_" + name, test)
 
     for name in KINDS:
-        if name not in OF_ONE_RANK:
-            add(name)
+        add(name)
 
 
 add_kinds(SameResults, (2, 3))
+
+
+class ByMpi(Ranks):
+    """Rows that MPI is given where the device has them. On a processor that is the host's memory; steps go in the order
+    of a GPU's."""
+
+    def test_same_results(self):
+        self.need_mpi_of_devices()
+        for name in ("multiplier", "much_else", "mixed"):
+            self.write(scene(name))
+            self.run_to_end(1)
+            alone = self.kept("alone.h5")
+            for ranks in (2, 3):
+                said = self.run_to_end(ranks, **BY_MPI)
+                self.assertIn(f"{ranks} ranks, rows by MPI from the device's memory;", said)
+                self.assert_same(alone, self.kept(f"{ranks}.h5"))
+
+
+class StaticStarts(Ranks):
+    """Ranks multiply the elements' stiffness together while rank 0 searches the equilibrium by Newton's method."""
+
+    SETTLE = "[settle]\ncache = false\nmethod = \"newton\"\n"
+
+    def test_same_results(self):
+        for name in ("multiplier", "float"):
+            self.write(scene(name, 0.03) + self.SETTLE)
+            said = self.run_to_end(1)
+            self.assertRegex(said, r"settled after \d+ evaluations of the forces in [1-9]\d* steps of Newton's method")
+            alone = self.kept("alone.h5")
+            for ranks in (2, 3):
+                self.run_to_end(ranks)
+                self.assert_same(alone, self.kept(f"{ranks}.h5"))
+
+    def test_ties_and_beams(self):
+        self.write(scene("penalty", 0.03, more=BEAMS + self.SETTLE))
+        self.run_to_end(1)
+        alone = self.kept("alone.h5")
+        self.run_to_end(4)
+        self.assert_same(alone, self.kept("4.h5"))
+
+    def test_a_rank_that_stalls(self):
+        self.write(scene("multiplier") + self.SETTLE + "tolerance = 1e-14\n")
+        run = self.start(3, RAILWAVE_RANK_PATIENCE="3")
+        for line in run.stdout:
+            if line.startswith("settling: "):
+                break
+        os.kill(self.others(run)[2], signal.SIGSTOP)
+        said, _ = run.communicate(timeout=PATIENCE)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("rank 2 has not answered rank 0 for 3 s", said)
+
+    def test_what_is_found_while_the_scene_settles(self):
+        self.write(scene("multiplier") + self.SETTLE + "[points.loose]\nmass = 1\nposition = [0, 0, 1]\n")
+        said = self.run_to_end(3, code=2)
+        self.assertIn("loose", said)
 
 
 class Sampling(Ranks):
@@ -162,7 +227,13 @@ class Sampling(Ranks):
 
 class Restarts(Ranks):
     def test_stopped_on_four_ranks_and_taken_up_on_others(self):
-        self.write(scene("penalty", 0.4))
+        self.take_up("penalty", 0.4)
+
+    def test_nodes_in_single_precision(self):
+        self.take_up("float", 0.6)
+
+    def take_up(self, name, share):
+        self.write(scene(name, share))
         self.run_to_end(1)
         alone = self.kept("alone.h5")
         for ranks in (1, 3):
@@ -178,11 +249,6 @@ class Restarts(Ranks):
 
 
 class Refusals(Ranks):
-    def test_nodes_in_single_precision(self):
-        self.write(scene("float"))
-        said = self.run_to_end(2, code=2)
-        self.assertIn("nodes in single precision are for one rank only", said)
-
     def test_a_mistake_in_the_case_is_said_once(self):
         self.write(scene("penalty").replace("friction = 0.3", 'friction = "much"'))
         said = self.run_to_end(3, code=2)
@@ -212,6 +278,23 @@ class Refusals(Ranks):
                              timeout=PATIENCE, check=False)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("1: this process has another model than rank 0", run.stderr)
+
+
+class WaysOfRows(Ranks):
+    def test_that_there_are_not(self):
+        self.write(scene("penalty", 0.02))
+        said = self.run_to_end(2, code=2, RAILWAVE_RANK_MESSAGES="gpu")
+        self.assertEqual(said.count("RAILWAVE_RANK_MESSAGES is 'gpu': auto, nccl, mpi or host is wanted"), 1, said)
+        self.assertFalse(self.results.exists())
+        if "by NCCL" in self.run_to_end(2):
+            return
+        self.results.unlink()
+        said = self.start(2, RAILWAVE_RANK_MESSAGES="nccl").communicate(timeout=PATIENCE)[0]
+        self.assertRegex(said, "built without NCCL|NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join")
+
+    def test_through_the_host(self):
+        self.write(scene("penalty", 0.02))
+        self.assertIn("3 ranks, rows through the host;", self.run_to_end(3, RAILWAVE_RANK_MESSAGES="host"))
 
 
 class Ensembles(Ranks):
@@ -261,9 +344,10 @@ friction_work = "energy.friction"
 
 
 class LostRanks(Ranks):
-    def lose(self, rank, number):
+    def lose(self, rank, number, **environment):
         self.write(scene("penalty", field_interval=1e-5))
-        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="8")
+        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="8",
+                         **environment)
         self.when_it_runs(run)
         began = time.monotonic()
         os.kill(self.others(run)[rank], number)
@@ -282,6 +366,10 @@ class LostRanks(Ranks):
 
     def test_a_rank_that_stalls_ends_all(self):
         self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP))
+
+    def test_a_rank_that_stalls_where_mpi_has_the_rows_from_devices(self):
+        self.need_mpi_of_devices()
+        self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP, **BY_MPI))
 
 
 def need_ranks():

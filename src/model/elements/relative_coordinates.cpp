@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "kernels/support/flush_denormals.hpp"
+#include "kernels/support/set_zero.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
 namespace {
-
-/// Steps whose frames are worked out in one launch.
 
 using Rows = Array<double* [3]>::HostMirror;
 using Eigen::Matrix3d;
@@ -51,59 +50,62 @@ FrameMotion best_motion(const std::vector<double>& mass, const Rows& position, c
   return motion;
 }
 
-FrameArm arm_of(const Assembly& assembly, const RelativeNodes& relative, int node, int frame) {
-  const Vec3& X = assembly.nodes[node];
-  FrameArm arm;
-  for (int i = 0; i < 3; ++i) arm.x[i] = static_cast<float>(X[i] - relative.host_motion[frame].centre[i]);
-  arm.frame = frame;
-  return arm;
-}
-
 int frame_of(const RelativeNodes& relative, int node) {
   const auto after = std::upper_bound(relative.range.begin(), relative.range.end(), node,
                                       [](int n, const RelativeNodes::Range& range) { return n < range.first; });
   return static_cast<int>(after - relative.range.begin()) - 1;
 }
 
-/// Arms of blocks and of shared nodes from the frames' centres.
-void set_arms(const Assembly& assembly, const std::vector<ElementGroup>& groups, const NodalState& nodal) {
-  for (const ElementGroup& group : groups) {
-    const auto arm = Kokkos::create_mirror_view(group.relative.arm);
-    for (int p = 0; p < group.blocks.count; ++p) {
-      const int node = assembly.elements[group.first_element[p]][0];
-      arm(p) = arm_of(assembly, nodal.relative, node, frame_of(nodal.relative, node));
-    }
-    Kokkos::deep_copy(group.relative.arm, arm);
-  }
-  const auto shared = to_host(nodal.shared.nodes);
-  const auto arm = Kokkos::create_mirror_view(nodal.relative.shared_arm);
-  for (std::size_t i = 0; i < shared.extent(0); ++i) {
-    const int node = shared(i).node & ~special_bit;
-    arm(i) = arm_of(assembly, nodal.relative, node, frame_of(nodal.relative, node));
-  }
-  Kokkos::deep_copy(nodal.relative.shared_arm, arm);
+FrameArm arm_of(const Rows& reference, const RelativeNodes& relative, int node) {
+  FrameArm arm;
+  arm.frame = frame_of(relative, node);
+  const Vector3& centre = relative.host_motion[arm.frame].centre;
+  for (int i = 0; i < 3; ++i) arm.x[i] = static_cast<float>(reference(node, i) - centre[i]);
+  return arm;
 }
 
-/// Reference places of a group's nodes relative to each block's point, the first corner of its first element.
-Array<float*> local_places(const Assembly& assembly, const ElementGroup& group) {
+/// The first corner of each block's first element.
+std::vector<int> points_of(const Assembly& assembly, const ElementGroup& group) {
+  std::vector<int> points;
+  for (int first : group.first_element) points.push_back(assembly.elements[first][0]);
+  return points;
+}
+
+/// Reference places of a group's nodes relative to each block's point. @param rank whose blocks; -1: all
+Array<float*> local_places(const Assembly& assembly, const ElementGroup& group, int rank) {
   const ElementBlocks& blocks = group.blocks;
   const auto number = to_host(blocks.node);
-  std::vector<float> local(3 * number.extent(0));
+  const auto device = unset_array<float*>("local places", 3 * number.extent(0));
+  set_zero(device);
+  const auto local = to_host(device);
   for (int p = 0; p < blocks.count; ++p) {
-    const Vec3& point = assembly.nodes[assembly.elements[group.first_element[p]][0]];
+    if (rank >= 0 && group.owner[p] != rank) continue;
+    const Vec3& point = assembly.nodes[group.relative.point[p]];
     for (int l = 0; l < blocks.node_stride; ++l) {
       const int n = number(static_cast<std::size_t>(p) * blocks.node_stride + l) & ~advance_bit;
       for (int i = 0; i < 3; ++i)
-        local[(3 * static_cast<std::size_t>(p) + i) * blocks.node_stride + l] =
+        local((3 * static_cast<std::size_t>(p) + i) * blocks.node_stride + l) =
             static_cast<float>(assembly.nodes[n][i] - point[i]);
     }
   }
-  return to_device("local places", local);
+  Kokkos::deep_copy(device, local);
+  return device;
+}
+
+/// Calls act(frame, its nodes, how many) for each frame: with the nodes that this process makes coordinates of.
+template <class Act>
+void each_frame(const NodalState& nodal, const Act& act) {
+  const RelativeNodes& relative = nodal.relative;
+  const bool all = relative.own.empty();
+  for (std::size_t c = 0; c < relative.range.size(); ++c) {
+    const RelativeNodes::Range& range = all ? relative.range[c] : relative.own[c];
+    act(relative.host_motion[c], FrameNodes{range.first, all ? Array<int*>() : nodal.own_nodes}, range.count);
+  }
 }
 
 }  // namespace
 
-void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
+void build_relative_nodes(const AssembledScene& assembled, int rank, std::vector<ElementGroup>& groups, Ties& ties,
                           NodalState& nodal) {
   if (assembled.scene.solver.precision != scene::Precision::single_precision) return;
   RelativeNodes& relative = nodal.relative;
@@ -119,27 +121,61 @@ void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGr
   for (const TiedPlace& tied : ties.places) of_slave.push_back(frame_of(relative, tied.slave));
   ties.frame = to_device("frames of tied nodes", of_slave);
   for (ElementGroup& group : groups) {
-    group.relative.local = local_places(assembled.assembly, group);
+    group.relative.point = points_of(assembled.assembly, group);
+    group.relative.local = local_places(assembled.assembly, group, rank);
     group.relative.arm = unset_array<FrameArm*>("arms of blocks", group.blocks.count);
   }
 }
 
-void begin_relative_nodes(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal) {
+void find_frames(const AssembledScene& assembled, NodalState& nodal) {
   flush_denormals();
   RelativeNodes& relative = nodal.relative;
   const Rows position = to_host(nodal.nodes.position), velocity = to_host(nodal.nodes.velocity);
   relative.host_motion.clear();
   for (const RelativeNodes::Range& range : relative.range)
     relative.host_motion.push_back(best_motion(assembled.mass, position, velocity, range));
+}
+
+void place_frames(const std::vector<ElementGroup>& groups, const NodalState& nodal) {
+  flush_denormals();
+  const RelativeNodes& relative = nodal.relative;
+  const Rows reference = to_host(nodal.nodes.reference);
   const auto motion = Kokkos::create_mirror_view(relative.motion);
   for (std::size_t c = 0; c < relative.range.size(); ++c) motion(c) = relative.host_motion[c];
   Kokkos::deep_copy(relative.motion, motion);
-  set_arms(assembled.assembly, groups, nodal);
-  for (std::size_t c = 0; c < relative.range.size(); ++c)
-    Kokkos::parallel_for(
-        "make_relative", Range(0, relative.range[c].count),
-        MakeRelative{nodal.nodes, relative.node, frame_at(relative.host_motion[c], 0, 2 * nodal.velocity_lag),
-                     relative.range[c].first});
+  for (const ElementGroup& group : groups) {
+    const auto arm = Kokkos::create_mirror_view(group.relative.arm);
+    for (int p = 0; p < group.blocks.count; ++p) arm(p) = arm_of(reference, relative, group.relative.point[p]);
+    Kokkos::deep_copy(group.relative.arm, arm);
+  }
+  const auto shared = to_host(nodal.shared.nodes);
+  const auto arm = Kokkos::create_mirror_view(relative.shared_arm);
+  for (std::size_t i = 0; i < shared.extent(0); ++i)
+    arm(i) = arm_of(reference, relative, shared(i).node & ~special_bit);
+  Kokkos::deep_copy(relative.shared_arm, arm);
+}
+
+void keep_relative_nodes(NodalState& nodal) {
+  RelativeNodes& relative = nodal.relative;
+  const auto nodes = to_vector(nodal.own_nodes);
+  const auto before = [&nodes](int n) {
+    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin());
+  };
+  relative.own.clear();
+  for (const RelativeNodes::Range& range : relative.range) {
+    const int first = before(range.first);
+    relative.own.push_back({first, before(range.first + range.count) - first});
+  }
+}
+
+void begin_relative_nodes(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal) {
+  RelativeNodes& relative = nodal.relative;
+  if (relative.host_motion.empty()) find_frames(assembled, nodal);
+  place_frames(groups, nodal);
+  each_frame(nodal, [&](const FrameMotion& motion, const FrameNodes& nodes, int count) {
+    Kokkos::parallel_for("make_relative", Range(0, count),
+                         MakeRelative{nodal.nodes, relative.node, frame_at(motion, 0, 2 * nodal.velocity_lag), nodes});
+  });
   relative.begun = true;
   relative.block_step = nodal.step;
   relative.block_time = relative.block_size = 0;
@@ -160,11 +196,11 @@ void compute_frame_steps(const ExecutionSpace& space, NodalState& nodal, double 
 void update_absolute_nodes(const NodalState& nodal) {
   const RelativeNodes& relative = nodal.relative;
   const double time = relative.time_of(nodal.step);
-  for (std::size_t c = 0; c < relative.range.size(); ++c)
+  each_frame(nodal, [&](const FrameMotion& motion, const FrameNodes& nodes, int count) {
     Kokkos::parallel_for(
-        "make_absolute", Range(0, relative.range[c].count),
-        MakeAbsolute{nodal.nodes, relative.node, frame_at(relative.host_motion[c], time, 2 * nodal.velocity_lag),
-                     relative.range[c].first});
+        "make_absolute", Range(0, count),
+        MakeAbsolute{nodal.nodes, relative.node, frame_at(motion, time, 2 * nodal.velocity_lag), nodes});
+  });
 }
 
 RelativeAdvance relative_advance(const NodalState& nodal, const RelativeBlocks& blocks, double step) {

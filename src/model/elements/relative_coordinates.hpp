@@ -28,11 +28,12 @@ struct RelativeNodes {
   Array<FrameMotion*> motion;   ///< by frame
   Array<FrameStep*> steps;      ///< of a block of steps, see ComputeFrameSteps
   std::vector<Range> range;     ///< by frame
-  std::vector<FrameMotion> host_motion;
-  bool begun = false;     ///< the relative coordinates have been made
-  long block_step = 0;    ///< the block's first step
-  double block_time = 0;  ///< s, its time since then
-  double block_size = 0;  ///< s, of its steps; 0: none is computed yet
+  std::vector<Range> own;  ///< by frame, in NodalState::own_nodes: of these alone a rank makes coordinates; empty: all
+  std::vector<FrameMotion> host_motion;  ///< empty: not found yet
+  bool begun = false;                    ///< the relative coordinates have been made
+  long block_step = 0;                   ///< the block's first step
+  double block_time = 0;                 ///< s, its time since then
+  double block_size = 0;                 ///< s, of its steps; 0: none is computed yet
 
   bool active() const { return !range.empty(); }
   double time_of(long step) const { return block_time + static_cast<double>(step - block_step) * block_size; }
@@ -42,11 +43,21 @@ struct RelativeNodes {
 struct RelativeBlocks {
   Array<float*> local;
   Array<FrameArm*> arm;
+  std::vector<int> point;  ///< node that is each block's own point
 };
 
-/// Makes the relative coordinates from the nodes as they stand in double precision. Whoever writes to those later calls
-/// this again.
+/// The frames' motions from all nodes as they stand in double precision.
+void find_frames(const AssembledScene& assembled, NodalState& nodal);
+
+/// Makes the relative coordinates from the nodes as they stand in double precision, with frames that are found now
+/// where they have not been.
 void begin_relative_nodes(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal);
+
+/// Has the frames on the device, and the arms of blocks and of shared nodes that follow from them.
+void place_frames(const std::vector<ElementGroup>& groups, const NodalState& nodal);
+
+/// A rank makes coordinates of the model's own nodes alone.
+void keep_relative_nodes(NodalState& nodal);
 
 /// Has the frames' values on the device for the step from the present instant to the next, of size `step`
 /// (s).

@@ -202,11 +202,11 @@ std::string memory_of_ranks(const std::vector<RankMemory>& memory) {
   return fmt::format("rank 0: {}, others: {} to {}", texts[0], bytes_text(least), bytes_text(most));
 }
 
-bool knows_ranks() {
-#ifdef RAILWAVE_MPI
-  return true;
-#else
-  return false;
+void need_mpi() {
+#ifndef RAILWAVE_MPI
+  throw InputError(
+      "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, then "
+      "build it anew");
 #endif
 }
 
@@ -217,20 +217,8 @@ double BlockPartition::imbalance() const {
   return all > 0 ? *std::max_element(work.begin(), work.end()) * ranks / all : 1;
 }
 
-void refuse_on_ranks(const Model& model) {
-  if (!knows_ranks())
-    throw InputError(
-        "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, "
-        "then build it anew");
-  if (model.scene.solver.precision == scene::Precision::single_precision)
-    throw InputError(
-        fmt::format("{}: [solver] precision: nodes in single precision are for one rank only; take precision = "
-                    "\"mixed\" or \"double\", or run it as one process",
-                    model.scene.path));
-}
-
 BlockPartition partition_blocks(const Model& model, int ranks) {
-  refuse_on_ranks(model);
+  need_mpi();
   const BlockGraph graph = graph_of(model);
   const double of_contact = work_of_contact(model);
   const std::vector<int> rank = deal_out(graph, of_contact, ranks);
@@ -306,8 +294,8 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
                               bytes_text(forecast_memory(model, alone).front().peak())));
   if (rank_0_needs_all(model.scene))
     lines.emplace_back(
-        "rank 0 has the arrays of the whole scene: it settles it or sets it in motion, finds contact, or searches the "
-        "whole scene's step");
+        "rank 0 has the arrays of the whole scene: it settles it or sets it in motion, finds contact or the frames of "
+        "single precision, or searches the whole scene's step");
   return lines;
 }
 

@@ -24,11 +24,7 @@ struct BlockPartition {
   double imbalance() const;
 };
 
-/// Throws InputError where the program was built without MPI and METIS, and where a scene has what several ranks do not
-/// compute yet.
-void refuse_on_ranks(const Model& model);
-
-/// Throws what refuse_on_ranks() throws.
+/// Throws InputError where the program was built without MPI and METIS.
 BlockPartition partition_blocks(const Model& model, int ranks);
 
 /// The rank that computes each element, in the model's order of elements.
@@ -41,9 +37,9 @@ void deal_out_blocks(Model& model, Transport& transport);
 /// The partition that deal_out_blocks() has left in a model: owners alone.
 BlockPartition partition_of(const Model& model, int ranks);
 
-/// Whether rank 0 needs all arrays before it deals a scene out: to settle it, to set it in motion, to find contact, and
-/// to search the frequencies of more than its elements. On a GPU memory is taken when arrays are made, not when they
-/// are touched.
+/// Whether rank 0 needs all arrays before it deals a scene out: to settle it, to set it in motion, to find contact, the
+/// frames of nodes in single precision, and to search the frequencies of more than its elements. On a GPU memory is
+/// taken when arrays are made, not when they are touched.
 bool rank_0_needs_all(const scene::Scene& scene);
 
 /// What a process is expected to take at most, bytes: while the model is made; in steps, before a checkpoint or a field

@@ -50,7 +50,8 @@ struct ArrayBytes {
   template <class View>
   void operator()(ArrayUse /*use*/, const std::string& name, View& view, ArrayShape /*shape*/) {
     const auto starts = [&](const char* word) { return name.rfind(word, 0) == 0; };
-    const bool of_nodes = name == "nodes_reference" || name == "nodes_position" || name == "nodes_velocity";
+    const bool of_nodes =
+        name == "nodes_reference" || name == "nodes_position" || name == "nodes_velocity" || name == "carried_node";
     const bool of_blocks = starts("elements_") && name.find("_node") == std::string::npos;
     const double bytes = static_cast<double>(view.span() * sizeof(typename View::value_type));
     if (starts("global_estimate_")) return;  // is rank 0's own, see of_search()
@@ -68,8 +69,9 @@ double of_search(const Model& model) {
 bool rank_0_needs_all(const scene::Scene& scene) {
   const bool searches = scene.solver.step_estimate == scene::StepEstimate::global ||
                         scene.solver.step_estimate == scene::StepEstimate::automatic;
-  return on_device || scene.settle.active || searches || !scene.initial_motions.empty() || !scene.contacts.empty() ||
-         !EstimateShare::possible(scene);
+  const bool has_frames = scene.solver.precision == scene::Precision::single_precision;
+  return on_device || scene.settle.active || searches || has_frames || !scene.initial_motions.empty() ||
+         !scene.contacts.empty() || !EstimateShare::possible(scene);
 }
 
 std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition& partition) {

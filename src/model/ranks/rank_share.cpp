@@ -219,6 +219,7 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   keep_shared_nodes(model, layout, rank);
   const ShareItems items = items_of(model, partition, layout, rank);
   model.own_nodes = to_device("own nodes", own_items(model, items).nodes);
+  if (rank > 0) keep_relative_nodes(model);  // rank 0 has those of all, which come back to it
   keep_sums(model, items);
   return share;
 }

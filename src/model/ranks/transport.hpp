@@ -9,12 +9,15 @@
 namespace railwave {
 
 /// How ranks, processes of one run, reach each other. Messages between two of them arrive in the order in which they
-/// were started. Bytes lie in the host's memory.
+/// were started. Bytes lie in the host's memory; those that are sent to one rank or received from one may lie in the
+/// device's where takes_device_memory() says so.
 class Transport {
  public:
   virtual ~Transport() = default;
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
+  /// This rank's side of it.
+  virtual bool takes_device_memory() const = 0;
 
   /// From rank 0 to all. Others wait as long as rank 0 takes.
   virtual void broadcast(void* data, std::size_t bytes) = 0;

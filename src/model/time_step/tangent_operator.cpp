@@ -30,6 +30,10 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
   }
   Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});
+  add_springs(u, inverse_time, f);
+}
+
+void TangentOperator::add_springs(const NodeVector& u, double inverse_time, const NodeVector& f) const {
   if (springs_.count == 0) return;
   Kokkos::parallel_for("tangent_springs", SumTeams(springs_.count, threads_of_sum),
                        SpringForce{springs_, u, inverse_time});

@@ -25,6 +25,9 @@ class TangentOperator {
              const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
              const NodeVector& f) const;
 
+  /// The springs' part of it, added to f.
+  void add_springs(const NodeVector& u, double inverse_time, const NodeVector& f) const;
+
   const Array<int*>& first_corner() const { return first_corner_; }
   const Array<int*>& corner() const { return corner_; }
   const Array<int* [8]>& corners() const { return corners_; }

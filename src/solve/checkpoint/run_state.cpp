@@ -1,6 +1,5 @@
 #include "solve/checkpoint/run_state.hpp"
 
-#include "kernels/support/flush_denormals.hpp"
 #include "model/time_step/automatic_step.hpp"
 #include "solve/checkpoint/state_arrays.hpp"
 
@@ -80,7 +79,7 @@ void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
   archive(restorer, model);
   keep_choice(model);
-  if (model.relative.begun) flush_denormals();
+  if (model.relative.begun) place_frames(model.elements, model);
 }
 
 }  // namespace railwave

@@ -55,9 +55,15 @@ struct ExchangeLoad {
   long elements;      ///< of the inner blocks
 };
 
-/// By NCCL, where the program was built with it and each rank has a GPU of its own, but for
-/// RAILWAVE_RANK_MESSAGES=host; null elsewhere, on all ranks alike: rows go through the host then. All ranks must call
-/// this together.
+/// Whether the program was built with NCCL, for GPUs that it knows.
+#if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
+inline constexpr bool has_device_messages = true;
+#else
+inline constexpr bool has_device_messages = false;
+#endif
+
+/// By NCCL, where the program was built with it and each rank has a GPU of its own; null elsewhere, on all ranks alike.
+/// All ranks must call this together.
 std::unique_ptr<DeviceMessages> device_messages(Transport& transport, const ExchangeLoad& load);
 
 }  // namespace railwave

@@ -2,6 +2,10 @@
 
 #ifdef RAILWAVE_MPI
 #include <mpi.h>
+// What else than the standard's functions there is. MPICH has its own in mpi.h.
+#if (defined(OPEN_MPI) || defined(MVAPICH2_VERSION)) && __has_include(<mpi-ext.h>)
+#include <mpi-ext.h>
+#endif
 #endif
 
 #include <fmt/format.h>
@@ -15,6 +19,7 @@
 
 #include "case/error.hpp"
 #include "case/number_text.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave {
 
@@ -49,12 +54,42 @@ void check(int code, const char* what) {
   throw std::runtime_error(fmt::format("MPI could not {}: {}", what, text));
 }
 
+#if defined(MPIX_GPU_SUPPORT_CUDA) || defined(MPIX_GPU_SUPPORT_HIP)
+bool mpich_takes(int kind_of_gpu) {
+  int yes = 0;
+  check(MPIX_GPU_query_support(kind_of_gpu, &yes), "say whether it takes a GPU's memory");
+  return yes != 0;
+}
+#endif
+
+/// What MPI says of the memory of GPUs; false where it cannot be asked. MPI must have begun.
+bool takes_gpu_memory() {
+#if defined(KOKKOS_ENABLE_IMPL_CUDA_MALLOC_ASYNC) || defined(KOKKOS_ENABLE_IMPL_HIP_MALLOC_ASYNC)
+  return false;  // Kokkos takes memory from a pool that other processes cannot be shown
+#elif defined(KOKKOS_ENABLE_HIP)
+#if defined(OMPI_HAVE_MPI_EXT_ROCM)
+  return MPIX_Query_rocm_support() == 1;
+#elif defined(MPIX_GPU_SUPPORT_HIP)
+  return mpich_takes(MPIX_GPU_SUPPORT_HIP);
+#else
+  return false;
+#endif
+#elif defined(MPIX_CUDA_AWARE_SUPPORT)
+  return MPIX_Query_cuda_support() == 1;
+#elif defined(MPIX_GPU_SUPPORT_CUDA)
+  return mpich_takes(MPIX_GPU_SUPPORT_CUDA);
+#else
+  return false;
+#endif
+}
+
 class MpiTransport : public Transport {
  public:
   MpiTransport() {
     MPI_Init(nullptr, nullptr);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
+    takes_device_memory_ = !on_device || takes_gpu_memory();
   }
   ~MpiTransport() override { MPI_Finalize(); }
   MpiTransport(const MpiTransport&) = delete;
@@ -62,6 +97,7 @@ class MpiTransport : public Transport {
 
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
+  bool takes_device_memory() const override { return takes_device_memory_; }
 
   void broadcast(void* data, std::size_t bytes) override {
     check(MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD), "tell all ranks");
@@ -136,6 +172,7 @@ class MpiTransport : public Transport {
 
   const double patience_ = patience_of_user();
   int rank_ = 0, ranks_ = 1;
+  bool takes_device_memory_ = false;
   std::vector<MPI_Request> requests_;
   std::vector<int> others_;  ///< by request
 };

@@ -15,7 +15,6 @@
 #include <string>
 #include <type_traits>
 
-#include "case/error.hpp"
 #include "solve/launch_graph.hpp"
 
 namespace railwave {
@@ -177,19 +176,9 @@ class NcclMessages : public DeviceMessages {
   const int exceptions_ = std::uncaught_exceptions();
 };
 
-/// Whether users leave the way of rows to the program.
-bool wanted() {
-  const char* const text = std::getenv("RAILWAVE_RANK_MESSAGES");
-  if (text == nullptr || *text == 0) return true;
-  if (std::string(text) == "host") return false;
-  throw InputError(fmt::format(
-      "the environment variable RAILWAVE_RANK_MESSAGES is '{}': host is wanted, or that it is unset", text));
-}
-
 }  // namespace
 
 std::unique_ptr<DeviceMessages> device_messages(Transport& transport, const ExchangeLoad& load) {
-  if (!transport.all_agree(wanted())) return nullptr;
   const int channels = channels_for(transport, load);
   ncclUniqueId id;
   const bool ready = transport.rank() != 0 || ncclGetUniqueId(&id) == ncclSuccess;

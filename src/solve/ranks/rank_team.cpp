@@ -11,6 +11,7 @@
 #include "model/ranks/mesh_share.hpp"
 #include "model/time_step/deformed_elements.hpp"
 #include "solve/monitor/account.hpp"
+#include "solve/ranks/static_parts.hpp"
 #include "solve/step_recording.hpp"
 
 namespace railwave {
@@ -19,7 +20,8 @@ namespace {
 /// What another rank computes of a step: elements, and the motion of their nodes.
 Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   Plan plan;
-  plan.forces = shared_force_tasks(model, kind, exchange, {});
+  if (model.relative.active()) plan.forces.push_back(corotating_frames_task(model, model.elements, model, kind));
+  append(plan.forces, shared_force_tasks(model, kind, exchange, {}));
   plan.motion = node_tasks(model, model.elements, model, kind, {}, EarlyNodes::with_others);
   return plan;
 }
@@ -60,6 +62,24 @@ void forget_mesh(Model& model) {
   model.assembly = {};
   model.order = {};
   model.own_steps = std::vector<float>();
+}
+
+/// Rank 0's co-rotating frames, which follow from all nodes, to all ranks.
+void share_frames(Model& model, Transport& transport) {
+  RelativeNodes& relative = model.relative;
+  if (!relative.active()) return;
+  const auto share = [&transport](auto& value) { transport.broadcast(&value, sizeof value); };
+  share(relative.begun);
+  share(relative.block_step);
+  share(relative.block_time);
+  share(relative.block_size);
+  relative.host_motion.resize(relative.range.size());
+  transport.broadcast(relative.host_motion.data(), sizeof(FrameMotion) * relative.host_motion.size());
+  const auto steps = to_host(relative.steps);
+  transport.broadcast(steps.data(), sizeof(FrameStep) * steps.extent(0));
+  if (transport.rank() == 0) return;
+  Kokkos::deep_copy(relative.steps, steps);
+  if (relative.begun) place_frames(model.elements, model);
 }
 
 /// Whether ranks that follow an order wait for their devices, whose rows must have come before.
@@ -119,6 +139,8 @@ void RankLeader::begin(bool at_start) {
   // Models begin alike where nothing has moved them yet.
   if (at_start && !model_.filled) return;
   give_order(RankOrder::take_state, {});
+  if (model_.relative.active() && model_.relative.host_motion.empty()) find_frames(model_, model_);
+  share_frames(model_, transport_);
   for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r], Transferred::state);
   whole_ = true;
 }
@@ -255,9 +277,8 @@ std::string RankLeader::summary() const {
   return fmt::format(
       "{} ranks, rows {}; to rank 0 came: energies {} times, {:.4g} kB each; histories {} times, {:.4g} kB each; the "
       "whole state {} times, {:.4g} kB each",
-      transport_.ranks(), exchange_->between_devices() ? "from GPU to GPU" : "through the host",
-      count(Transferred::energies), each(Transferred::energies), count(Transferred::histories),
-      each(Transferred::histories), count(Transferred::state), each(Transferred::state));
+      transport_.ranks(), description(exchange_->way()), count(Transferred::energies), each(Transferred::energies),
+      count(Transferred::histories), each(Transferred::histories), count(Transferred::state), each(Transferred::state));
 }
 
 void end_followers(Transport& transport) {
@@ -269,7 +290,11 @@ void end_followers(Transport& transport) {
 
 void follow_rank_0(Model& model, Transport& transport) {
   RankOrder first;
-  transport.broadcast(&first, sizeof first);
+  for (;;) {
+    transport.broadcast(&first, sizeof first);
+    if (first.kind != RankOrder::settle) break;
+    follow_static_parts(transport);
+  }
   if (first.kind == RankOrder::end) return;
   if (first.model != fingerprint(model))
     throw std::runtime_error(
@@ -313,9 +338,10 @@ void follow_rank_0(Model& model, Transport& transport) {
     const Instant instant = instant_of(order);
     switch (order.kind) {
       case RankOrder::take_state:
-        state_transfer.receive(0, items, Transferred::state);
         model.step = order.step;
         model.velocity_lag = order.velocity_lag;
+        share_frames(model, transport);
+        state_transfer.receive(0, items, Transferred::state);
         break;
       case RankOrder::advance:
         advance(instant, order.steps);
@@ -348,6 +374,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         send_to_rank_0(transport, MessageOfMeasures::of(monitored->measure(model, {})));
         break;
       case RankOrder::deformed:
+        if (model.relative.begun) update_absolute_nodes(model);
         send_to_rank_0(transport, measure_now(elements, model, order.limits[0], order.limits[1]));
         break;
       case RankOrder::deforming:
@@ -362,6 +389,7 @@ void follow_rank_0(Model& model, Transport& transport) {
       case RankOrder::move:
         plans.advance(instant);
         break;
+      case RankOrder::settle:
       case RankOrder::deal_out:
       case RankOrder::end:
         return;

@@ -48,6 +48,7 @@ class StateTransfer {
 /// What rank 0 has the others do.
 struct RankOrder {
   enum Kind : int {
+    settle,      ///< with rank 0, see static_parts.hpp
     deal_out,    ///< which rank has which blocks
     take_state,  ///< the scene as it begins, or as it was taken up
     advance,     ///< so many steps

@@ -1,6 +1,7 @@
 #include "solve/ranks/row_exchange.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
 #include "kernels/support/milestone.hpp"
@@ -11,26 +12,27 @@
 
 namespace railwave {
 
-/// Rows on the device, and on the host where messages are; one memory where the device is the host.
+/// Rows on the device, and on the host where messages are to have them there.
 template <class S>
 struct RowBuffer {
   Array<PartialForce<S>*> device;
   PinnedArray<PartialForce<S>*> host;
+  bool copied;  ///< between the two
 
-  explicit RowBuffer(std::size_t rows) : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)) {
-    if constexpr (on_device)
-      host = PinnedArray<PartialForce<S>*>("rows of other ranks, on the host", rows);
-    else
-      host = device;
+  RowBuffer(std::size_t rows, RowWay way)
+      : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)), copied(on_device && way == RowWay::host) {
+    if (copied) host = PinnedArray<PartialForce<S>*>("rows of other ranks, on the host", rows);
   }
+
+  PartialForce<S>* of_messages() const { return copied ? host.data() : device.data(); }
 };
 
 template <class S>
 struct PrecisionBuffers {
   RowBuffer<S> sent, received;
 
-  PrecisionBuffers(const RankShare& share, bool used)
-      : sent(used ? share.sent.extent(0) : 0), received(used ? share.received.extent(0) : 0) {}
+  PrecisionBuffers(const RankShare& share, RowWay way, bool used)
+      : sent(used ? share.sent.extent(0) : 0, way), received(used ? share.received.extent(0) : 0, way) {}
 };
 
 /// So many steps, or graphs of steps, the host launches before the device has come to the first of them: more would
@@ -42,9 +44,10 @@ struct RowExchange::Buffers {
   PrecisionBuffers<float> in_single;
   Milestone packed, unpacked;
   ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
-  std::unique_ptr<DeviceMessages> on_devices;          ///< null: rows go through the host
+  std::unique_ptr<DeviceMessages> on_devices;          ///< null: the host has MPI exchange rows
 
-  Buffers(const RankShare& share, bool single) : in_double(share, !single), in_single(share, single) {}
+  Buffers(const RankShare& share, RowWay way, bool single)
+      : in_double(share, way, !single), in_single(share, way, single) {}
 };
 
 namespace {
@@ -73,14 +76,14 @@ void start_messages(const PrecisionBuffers<S>& buffers, const RankShare& share, 
                     Transport& transport) {
   const RowBuffer<S>&sent = buffers.sent, &received = buffers.received;
   for (const RankShare::Neighbour& one : share.neighbours)
-    transport.start_receive(one.rank, received.host.data() + one.first_received,
+    transport.start_receive(one.rank, received.of_messages() + one.first_received,
                             sizeof(PartialForce<S>) * one.received_count);
-  if constexpr (on_device) {
+  if (sent.copied) {
     Kokkos::deep_copy(copies, sent.host, sent.device);
     copies.fence();
   }
   for (const RankShare::Neighbour& one : share.neighbours)
-    transport.start_send(one.rank, sent.host.data() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count);
+    transport.start_send(one.rank, sent.of_messages() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count);
 }
 
 template <class S>
@@ -103,25 +106,41 @@ ExchangeLoad load_of(const RankShare& share, bool single) {
 template <class S>
 void finish_messages(const PrecisionBuffers<S>& buffers, const ExecutionSpace& copies, Transport& transport) {
   transport.finish();
-  if constexpr (on_device) {
+  if (buffers.received.copied) {
     Kokkos::deep_copy(copies, buffers.received.device, buffers.received.host);
     copies.fence();
   }
 }
 
+/// Null: by MPI.
+std::unique_ptr<DeviceMessages> messages_for(RowWay wanted, Transport& transport, const ExchangeLoad& load) {
+  if (wanted != RowWay::automatic && wanted != RowWay::nccl) return nullptr;
+  auto messages = device_messages(transport, load);
+  if (wanted == RowWay::nccl && !messages)
+    throw std::runtime_error(
+        "NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join the ranks: each needs a GPU of its own "
+        "(NCCL_DEBUG=WARN says more). Unset the variable, and rows go the best way that there is");
+  return messages;
+}
+
+/// Of those by MPI the one that all ranks have.
+RowWay way_by_mpi(RowWay wanted, Transport& transport) {
+  if (wanted != RowWay::automatic) return wanted;
+  return transport.all_agree(on_device && transport.takes_device_memory()) ? RowWay::mpi : RowWay::host;
+}
+
 }  // namespace
 
 RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& transport)
-    : nodal_(nodal),
-      share_(std::move(share)),
-      transport_(transport),
-      buffers_(std::make_unique<Buffers>(share_, nodal.partial.single_precision)) {
-  buffers_->on_devices = device_messages(transport, load_of(share_, nodal.partial.single_precision));
+    : nodal_(nodal), share_(std::move(share)), transport_(transport), way_(wanted_row_way(transport)) {
+  const bool single = nodal.partial.single_precision;
+  auto messages = messages_for(way_, transport, load_of(share_, single));
+  way_ = messages ? RowWay::nccl : way_by_mpi(way_, transport);
+  buffers_ = std::make_unique<Buffers>(share_, way_, single);
+  buffers_->on_devices = std::move(messages);
 }
 
 RowExchange::~RowExchange() = default;
-
-bool RowExchange::between_devices() const { return buffers_->on_devices != nullptr; }
 
 void RowExchange::wait_for_rows(long ahead) const {
   transport_.wait_until([&] { return buffers_->unpacked.ahead() <= ahead; });
@@ -163,8 +182,7 @@ Task RowExchange::send_task(bool beside) {
               with_rows([this](const auto& rows, const auto& buffers) {
                 if (buffers_->on_devices) return exchange_on_devices(rows, buffers);
                 pack(ExecutionSpace(), rows, buffers, share_);
-                // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
-                if constexpr (on_device)
+                if (starts_late())
                   buffers_->packed.put(ExecutionSpace());
                 else
                   start_messages(buffers, share_, buffers_->copies, transport_);
@@ -183,7 +201,7 @@ Task RowExchange::receive_task() {
                 return;
               }
               with_rows([this](const auto& rows, const auto& buffers) {
-                if constexpr (on_device) {
+                if (starts_late()) {
                   buffers_->packed.wait();
                   start_messages(buffers, share_, buffers_->copies, transport_);
                 }

@@ -10,6 +10,22 @@
 
 namespace railwave {
 
+/// How the rows of partial forces go from rank to rank.
+enum class RowWay : int {
+  automatic,  ///< the first of those below that all ranks have
+  nccl,       ///< from GPU to GPU, see device_messages.hpp
+  mpi,        ///< by an MPI that is given the device's memory
+  host        ///< by MPI through the host's memory
+};
+
+/// The way that RAILWAVE_RANK_MESSAGES names on rank 0: launchers of MPI need not pass variables on to other hosts.
+/// All ranks must call this together.
+/// Throws InputError, on all of them, where the variable names no way, or one that a rank does not have.
+RowWay wanted_row_way(Transport& transport);
+
+/// For people.
+const char* description(RowWay way);
+
 template <class S>
 struct PrecisionBuffers;
 
@@ -17,22 +33,26 @@ struct PrecisionBuffers;
 /// add its rows in the same order, so that it goes the same way on each.
 class RowExchange {
  public:
+  /// All ranks must make theirs together. Throws what wanted_row_way() throws, and std::runtime_error where NCCL is
+  /// wanted and cannot join the ranks.
   RowExchange(const NodalState& nodal, RankShare share, Transport& transport);
   ~RowExchange();
 
   const RankShare& share() const { return share_; }
   Transport& transport() const { return transport_; }
 
-  /// Whether rows go from GPU to GPU; else they go through the host.
-  bool between_devices() const;
+  /// Never automatic.
+  RowWay way() const { return way_; }
+  /// Whether devices exchange rows by themselves; else the host waits for them in each step.
+  bool between_devices() const { return way_ == RowWay::nccl; }
 
   /// Until no more than so many steps, or graphs of steps, are left whose rows of other ranks have not come, see
   /// Transport::wait_until().
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
   void wait_for_rows(long ahead = 0) const;
 
-  /// In whose order outer blocks may launch their forces, beside all others; null: the default one, and rows go through
-  /// the host.
+  /// In whose order outer blocks may launch their forces, beside all others; null: the default one, as the host waits
+  /// for rows.
   const ExecutionSpace* outer_space() const;
   /// In whose order loads and contact may be launched then; null: the default one.
   const ExecutionSpace* side_space() const;
@@ -54,6 +74,10 @@ class RowExchange {
  private:
   struct Buffers;
 
+  /// Messages by MPI leave when the inner blocks are launched: a device has yet to begin with the outer ones when these
+  /// are, while a host is done with them. Where a host's memory stands for a device's, it does as for a device.
+  bool starts_late() const { return on_device || way_ == RowWay::mpi; }
+
   /// In outer_space(), all of it.
   template <class S>
   void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
@@ -65,6 +89,7 @@ class RowExchange {
   const NodalState& nodal_;
   RankShare share_;
   Transport& transport_;
+  RowWay way_;
   std::unique_ptr<Buffers> buffers_;
   bool recording_ = false;
 };

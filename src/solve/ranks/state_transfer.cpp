@@ -138,6 +138,7 @@ void transfer_state(Model& model, const ShareItems& items, Transfer& transfer) {
   const auto nodes = [&] { return items.nodes; };
   transfer.template rows<double, 3>(model.nodes.position, nodes);
   transfer.template rows<double, 3>(model.nodes.velocity, nodes);
+  transfer.values(model.relative.node, nodes, 1);
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& group = model.elements[g];
     const auto blocks = [&] { return items.blocks[g]; };

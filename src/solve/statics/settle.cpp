@@ -151,16 +151,18 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
 }
 
 /// Newton's method; where that finds no equilibrium, relaxation from where both began.
-SettleReport settle_automatically(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle_automatically(Model& model, const std::function<bool(const SettleReport&)>& go_on,
+                                  Transport* others) {
   const StaticState start = save_static_state(model);
   SettleReport newton;
   bool stopped = false;
   try {
-    newton = settle_by_newton(model, [&](const SettleReport& so_far) {
+    const auto go_on_still = [&](const SettleReport& so_far) {
       newton.steps = so_far.steps;
       stopped = stopped || !go_on(so_far);
       return !stopped;
-    });
+    };
+    newton = settle_by_newton(model, go_on_still, others);
     if (newton.settled || stopped) return newton;
   } catch (const InputError& error) {
     newton.adrift = error.what();
@@ -176,13 +178,13 @@ SettleReport settle_automatically(Model& model, const std::function<bool(const S
   return report;
 }
 
-SettleReport settle_by(scene::SettleMethod method, Model& model,
-                       const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle_by(scene::SettleMethod method, Model& model, const std::function<bool(const SettleReport&)>& go_on,
+                       Transport* others) {
   switch (method) {
     case scene::SettleMethod::automatic:
-      return settle_automatically(model, go_on);
+      return settle_automatically(model, go_on, others);
     case scene::SettleMethod::newton:
-      return settle_by_newton(model, go_on);
+      return settle_by_newton(model, go_on, others);
     case scene::SettleMethod::relaxation:
       break;
   }
@@ -232,16 +234,17 @@ std::vector<SettlingTasks> describe_settling(Model& model) {
   return methods;
 }
 
-SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others) {
   const auto began = std::chrono::steady_clock::now();
-  SettleReport report = settle_by(model.scene.settle.method, model, go_on);
+  SettleReport report = settle_by(model.scene.settle.method, model, go_on, others);
   // The run starts from what a file of the state would hold, and from nothing else.
   restore_static_state(model, save_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return report;
 }
 
-SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on,
+                          Transport* others) {
   SettleReport report;
   std::vector<std::string> remarks;
   std::string begun_from;
@@ -260,7 +263,7 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
       return report;
     }
   }
-  report = settle(model, go_on);
+  report = settle(model, go_on, others);
   if (states != nullptr && (report.settled || model.scene.settle.keep_unsettled)) {
     StaticState state = save_static_state(model);
     state.settled = report.settled;

@@ -6,6 +6,7 @@
 
 #include "kernels/statics/tangent.hpp"
 #include "model/model.hpp"
+#include "model/ranks/transport.hpp"
 #include "solve/statics/static_state.hpp"
 #include "solve/tasks.hpp"
 
@@ -30,12 +31,14 @@ struct SettleReport {
 /// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
 /// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
 /// @param go_on called every few steps with how far it is; false ends the relaxation early
-SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
+/// @param others ranks that wait for rank 0's orders and take part; null: there are none
+SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others = nullptr);
 
 /// Settles a scene, or takes its settled state from where an earlier run has kept it; goes on from one that was
 /// interrupted. The state is kept in any case.
 /// @param states null: nothing is kept
-SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on);
+SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on,
+                          Transport* others = nullptr);
 
 /// What the evaluation of forces, and a relaxation's step, are made of: a line for each task of each method in turn.
 /// None where the scene does not settle.
@@ -55,7 +58,8 @@ std::vector<Vec3> centrifugal_field(const AssembledScene& assembled, const Array
 /// present place, preconditioned by nodal blocks and rigid motions of aggregates, and are shortened until the forces
 /// along them have come down: then contact may close on the way. Multipliers of contact are found by augmented
 /// Lagrange. Throws InputError for a point mass that nothing holds against the force on it.
-SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on);
+SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on,
+                              Transport* others = nullptr);
 
 /// A point mass has no shape to lean on: springs and constraints must hold it against its load while the scene settles
 /// by Newton's method.

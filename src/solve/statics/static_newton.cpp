@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "kernels/support/reductions.hpp"
 #include "model/beams/beams.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/host_copy.hpp"
 #include "solve/plan.hpp"
+#include "solve/ranks/static_parts.hpp"
 #include "solve/statics/settle.hpp"
 #include "solve/statics/static_coarse.hpp"
 #include "solve/statics/static_contact.hpp"
@@ -62,13 +64,14 @@ struct Measure {
 class Newton {
  public:
   /// @param before whose evaluations of forces and steps are counted on
-  Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on, const SettleReport& before)
+  Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on, StaticParts* parts,
+         const SettleReport& before)
       : model_(model),
         go_on_(go_on),
         unknowns_(model, model.ties, model.ends, model.beams),
         contact_(model, model, model.contacts),
         forces_(newton_tasks(model, [this] { contact_.press(); })),
-        tangent_(model, model.nodes, unknowns_),
+        tangent_(model, model.nodes, unknowns_, parts),
         coarse_(model.assembly, model.nodes.position, tangent_),
         residual_{model.acceleration(),
                   to_device("centrifugal field", centrifugal_field(model, model.nodes.reference, model.beams)),
@@ -312,14 +315,15 @@ bool any_friction(const Model& model) {
 
 /// Newton's method from where the model is, or from another state. Where it makes nothing better, the model is as it
 /// was.
-SettleReport go_on_settling(Model& model, const std::function<bool(const SettleReport&)>& go_on, bool friction,
-                            const SettleReport& before, int most_slow_steps, const StaticState* from = nullptr) {
+SettleReport go_on_settling(Model& model, const std::function<bool(const SettleReport&)>& go_on, StaticParts* parts,
+                            bool friction, const SettleReport& before, int most_slow_steps,
+                            const StaticState* from = nullptr) {
   const StaticState reached = save_static_state(model);
   if (from) restore_static_state(model, *from);
   SettleReport report;
   {
     const FrictionForNow own(model.scene.settle, friction);
-    report = Newton(model, go_on, before).run(most_slow_steps);
+    report = Newton(model, go_on, parts, before).run(most_slow_steps);
   }
   if (report.settled || report.unbalance < before.unbalance) return report;
   restore_static_state(model, reached);
@@ -332,10 +336,10 @@ SettleReport go_on_settling(Model& model, const std::function<bool(const SettleR
 /// scene settles without friction first and then with it from there, where all nodes stick. Where that leads nowhere,
 /// as with bodies that friction alone holds, it goes on from what was tried.
 SettleReport settle_without_friction_first(Model& model, const std::function<bool(const SettleReport&)>& go_on,
-                                           const StaticState& start, const SettleReport& tried) {
-  SettleReport report = go_on_settling(model, go_on, false, tried, patience, &start);
+                                           StaticParts* parts, const StaticState& start, const SettleReport& tried) {
+  SettleReport report = go_on_settling(model, go_on, parts, false, tried, patience, &start);
   const bool better = report.unbalance < tried.unbalance;
-  report = go_on_settling(model, go_on, true, report, no_limit);
+  report = go_on_settling(model, go_on, parts, true, report, no_limit);
   if (better)
     report.remarks.push_back(
         fmt::format("with friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
@@ -346,11 +350,11 @@ SettleReport settle_without_friction_first(Model& model, const std::function<boo
 
 /// Without friction nodes may come to rest in edges between facets, where the force jumps from one normal to the other.
 /// Then those that touch stick where they are, and what is left unbalanced, if it is little, is all that they hold.
-SettleReport hold_by_friction(Model& model, const std::function<bool(const SettleReport&)>& go_on,
+SettleReport hold_by_friction(Model& model, const std::function<bool(const SettleReport&)>& go_on, StaticParts* parts,
                               const SettleReport& tried) {
-  if (tried.unbalance > most_held) return go_on_settling(model, go_on, false, tried, no_limit);
-  SettleReport report = go_on_settling(model, go_on, true, tried, no_limit);
-  if (!report.settled) return go_on_settling(model, go_on, false, report, no_limit);
+  if (tried.unbalance > most_held) return go_on_settling(model, go_on, parts, false, tried, no_limit);
+  SettleReport report = go_on_settling(model, go_on, parts, true, tried, no_limit);
+  if (!report.settled) return go_on_settling(model, go_on, parts, false, report, no_limit);
   report.remarks.push_back(
       fmt::format("without friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
                   "evaluations; nodes in contact stick from there on and hold what is left",
@@ -369,8 +373,11 @@ std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
   return tasks;
 }
 
-SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others) {
   model.step = 0;
+  std::unique_ptr<StaticParts> shared;
+  if (others != nullptr && StaticParts::possible) shared = std::make_unique<StaticParts>(model, *others);
+  StaticParts* const parts = shared.get();
   bool stopped = false;
   const auto go_on_still = [&](const SettleReport& so_far) {
     stopped = stopped || !go_on(so_far);
@@ -378,10 +385,10 @@ SettleReport settle_by_newton(Model& model, const std::function<bool(const Settl
   };
   const bool rubs = any_friction(model), friction = rubs && model.scene.settle.friction;
   const StaticState start = friction ? save_static_state(model) : StaticState{};
-  SettleReport report = Newton(model, go_on_still, {}).run(rubs ? patience : no_limit);
+  SettleReport report = Newton(model, go_on_still, parts, {}).run(rubs ? patience : no_limit);
   if (rubs && !report.settled && !stopped && report.steps < model.scene.settle.max_steps)
-    report = friction ? settle_without_friction_first(model, go_on_still, start, report)
-                      : hold_by_friction(model, go_on_still, report);
+    report = friction ? settle_without_friction_first(model, go_on_still, parts, start, report)
+                      : hold_by_friction(model, go_on_still, parts, report);
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.missed, 0);
     if (!pair.has_springs()) Kokkos::deep_copy(pair.multipliers.way_since_stuck, 0.0);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <utility>
 
 #include "model/host_copy.hpp"
 #include "model/time_step/tangent_operator.hpp"
@@ -21,8 +22,13 @@ std::array<double, 6> distinct(const Eigen::Matrix3d& m) {
 
 }  // namespace
 
-StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns)
-    : assembly_(assembled.assembly), nodes_(nodes), unknowns_(unknowns), tangent_(assembly_, unknowns.rotations()) {
+StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns,
+                             StaticParts* parts)
+    : assembly_(assembled.assembly),
+      nodes_(nodes),
+      unknowns_(unknowns),
+      parts_(parts),
+      tangent_(assembly_, unknowns.rotations()) {
   const auto& elements = assembly_.elements;
   const std::size_t count = assembly_.nodes.size();
   part_of_element_.assign(elements.size(), 0);
@@ -58,6 +64,7 @@ StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& 
 void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
   shift_ = shift;
   tangent_.set_springs(springs.on_device());
+  if (parts_ != nullptr) parts_->place(nodes_.position);
   auto blocks = element_blocks_;
   for (std::size_t s = 0; s < springs.count(); ++s)
     for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k) {
@@ -95,7 +102,13 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
 
 void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {
   unknowns_.lead_slaves(u);
-  tangent_.apply(assembly_, stiffness_, nodes_.position, u, 0, f);
+  if (parts_ == nullptr) {
+    tangent_.apply(assembly_, stiffness_, nodes_.position, u, 0, f);
+  } else {
+    Kokkos::deep_copy(Kokkos::subview(f, std::pair(unknowns_.nodes(), unknowns_.rows()), Kokkos::ALL), 0.0);
+    parts_->apply(u, f);
+    tangent_.add_springs(u, 0, f);
+  }
   unknowns_.pass_on(f);
   Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()),
                        ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});

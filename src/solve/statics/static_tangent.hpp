@@ -6,6 +6,7 @@
 #include "model/assembled_scene.hpp"
 #include "model/time_step/tangent_operator.hpp"
 #include "model/time_step/tangent_springs.hpp"
+#include "solve/ranks/static_parts.hpp"
 #include "solve/statics/static_unknowns.hpp"
 
 namespace railwave {
@@ -16,7 +17,9 @@ namespace railwave {
 /// holds has an answer all the same.
 class StaticTangent {
  public:
-  StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns);
+  /// @param parts of ranks that multiply the elements' stiffness together; null: there is one process
+  StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns,
+                StaticParts* parts = nullptr);
 
   /// Connectors, beams and contact springs as they are now; lays out the preconditioner's blocks.
   /// @param shift share of the diagonal that is added
@@ -38,6 +41,7 @@ class StaticTangent {
   const Assembly& assembly_;
   const NodeArrays& nodes_;
   const StaticUnknowns& unknowns_;
+  StaticParts* const parts_;
   TangentOperator tangent_;
   double shift_ = 0;
   std::vector<ElementStiffness> stiffness_;  ///< by part

@@ -30,7 +30,7 @@ Task subcycled_task(const NodalState& nodal, bool shared_alone) {
 Task relative_blocks_task(const NodalState& nodal, const std::vector<ElementGroup>& groups) {
   return {"inner nodes of the elements' blocks", "f to j", [&nodal, &groups](const Instant& instant) {
             for (const ElementGroup& group : groups)
-              launch_blocks(group.blocks,
+              launch_blocks(group.blocks, group.whole ? nullptr : &group.own_blocks,
                             RelativeBlockUpdate{group.blocks, relative_advance(nodal, group.relative, instant.step),
                                                 nodal.partial.in_single, group.first_partial});
           }};

@@ -234,7 +234,7 @@ struct StepRecording::Recordings {
 
   /// @param done lanes of the same stage
   LaunchGraph::Node record_lane(LaunchGraph& graph, LaunchGraph::Node ready, const std::vector<const Task*>& tasks,
-                                const std::map<int, LaunchGraph::Node>& done, const Instant& instant) {
+                                const std::map<int, LaunchGraph::Node>& done, const Instant& instant) const {
     for (std::size_t first = 0, end = 0; first < tasks.size(); first = end) {
       if (const auto other = done.find(tasks[first]->joins); other != done.end())
         ready = first == 0 ? other->second : LaunchGraph::joined({ready, other->second});

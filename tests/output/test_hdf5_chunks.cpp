@@ -4,8 +4,10 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -99,7 +101,7 @@ int check_same_chunks(const Write& write) {
   }
   const auto chunks = raw_chunks(by_threads, "values");
   CHECK(chunks == raw_chunks(by_hdf5, "values"));
-  CHECK((asked.times == 0 || chunks.size() >= 4));
+  CHECK((asked.times == 0 || chunks.size() >= 2));
   return asked.times;
 }
 
@@ -162,15 +164,22 @@ TEST_CASE("small arrays, and those that HDF5 has to convert, are left to HDF5") 
   CHECK(check_whole<int>({1000, 4}) == 0);
 }
 
-TEST_CASE("rows of several to a chunk are left to HDF5 where they are no whole chunks") {
-  CHECK(check_same_chunks([](const hdf5::Group& group) {
-          hdf5::Dataset dataset = group.create_growing<double>("values", {}, {16384, true});
-          for (const hsize_t rows : {40000, 90000}) {
-            const std::vector<double> values = made_up_values<double>(rows, 5);
-            dataset.append(values.data(), rows);
-          }
-          CHECK(dataset.shape() == hdf5::Shape{130000});
-        }) == 0);
+TEST_CASE("rows of which many lie in a chunk are left to HDF5 where they begin amid one") {
+  const auto asked = [](hsize_t first) {
+    return check_same_chunks([&](const hdf5::Group& group) {
+      hdf5::Dataset dataset = group.create_growing<double>("values", {}, {16384, true});
+      std::vector<double> wanted;
+      for (const hsize_t rows : {first, hsize_t{90000}}) {
+        const std::vector<double> values = made_up_values<double>(rows, 5);
+        dataset.append(values.data(), rows);
+        wanted.insert(wanted.end(), values.begin(), values.end());
+      }
+      CHECK(dataset.read<double>() == wanted);
+    });
+  };
+  CHECK(asked(100) == 0);
+  CHECK(asked(16384) > 0);
+  CHECK(asked(40000) > 0);  // of which a part of the last chunk is written again
 }
 
 TEST_CASE("a full disk says the same whoever compresses") {
@@ -192,6 +201,26 @@ TEST_CASE("a full disk says the same whoever compresses") {
   const std::string expected = complaint({});
   CHECK_THAT(expected, ContainsSubstring("File too large"));
   CHECK(complaint([] { return 3; }) == expected);
+}
+
+// Hidden: prints how long the stresses of a large scene take, by HDF5 and by several threads (docs/performance.md).
+TEST_CASE("time of a large array", "[.compression-times]") {
+  constexpr hsize_t elements = 490000;
+  const std::vector<double> values = made_up_values<double>(6 * elements, 1);
+  const TemporaryFolder folder;
+  for (const int threads : {0, 1, 2, 4, 8, 16}) {
+    hdf5::File file = hdf5::File::create(folder / "run.h5", kinds::results());
+    if (threads > 0) file.compress_on([threads] { return threads; });
+    hdf5::Dataset dataset = file.root().create_growing<double>("values", {elements, 6}, {1, true});
+    double best = INFINITY;
+    for (int i = 0; i < 5; ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      dataset.append(values.data(), 1);
+      file.flush();
+      best = std::fmin(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    std::printf("%2d threads (0: HDF5): %4.0f ms\n", threads, 1e3 * best);
+  }
 }
 
 TEST_CASE("the checksum of nothing and of zeros is zero, of other bytes it never is") {

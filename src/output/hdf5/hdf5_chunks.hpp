@@ -15,9 +15,9 @@ namespace railwave::hdf5 {
 /// end the higher of a pair.
 std::uint32_t fletcher32(const unsigned char* bytes, std::size_t size);
 
-/// Writes rows of a dataset that has chunks and room for them, unless H5Dwrite is to: where there are few chunks, the
-/// rows are not whole chunks, HDF5 would have to convert the values otherwise than from double to single, the filters
-/// are others, the program was built without zlib, or memory is little.
+/// Writes rows of a dataset that has chunks and room for them, unless H5Dwrite is to: where it would be one chunk, the
+/// rows begin amid a chunk, HDF5 would have to convert the values otherwise than from double to single, the filters are
+/// others, the program was built without zlib, or memory is little.
 /// @param name for messages
 /// @param first row in the dataset
 /// @param block shape of what is written; block[0]: how many rows

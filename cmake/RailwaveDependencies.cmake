@@ -32,14 +32,14 @@ target_include_directories(railwave_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS}
 target_link_libraries(railwave_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 add_library(railwave::hdf5 ALIAS railwave_hdf5)
 
-# Reports compress their data by it. Where HDF5's headers are it usually is too.
+# Reports compress their data by it, and results on several threads. Where HDF5's headers are it usually is too.
 find_package(ZLIB QUIET)
 add_library(railwave_zlib INTERFACE)
 if(ZLIB_FOUND)
   target_link_libraries(railwave_zlib INTERFACE ZLIB::ZLIB)
   target_compile_definitions(railwave_zlib INTERFACE RAILWAVE_ZLIB)
 else()
-  message(STATUS "zlib was not found: 'railwave report' is left out. Debian has it as zlib1g-dev.")
+  message(STATUS "zlib was not found: 'railwave report' is left out, and results are compressed on one thread. Debian has it as zlib1g-dev.")
 endif()
 add_library(railwave::zlib ALIAS railwave_zlib)
 

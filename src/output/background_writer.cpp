@@ -35,9 +35,12 @@ BackgroundWriter::Writer BackgroundWriter::begin_alone(std::string path, RunDesc
 }
 
 BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far,
-                                   std::function<void()> on_failure)
+                                   std::function<void()> on_failure, CompressionThreads threads)
     : writer_(begin_alone(std::move(path), std::move(description), so_far)), thread_(capacity, std::move(on_failure)) {
-  thread_.add(alone(hdf5::be_quiet));
+  thread_.add(alone([this, threads] {
+    hdf5::be_quiet();
+    writer_->compress_on([this, threads] { return thread_.is_awaited() ? threads.run_waits : threads.beside_run; });
+  }));
 }
 
 void BackgroundWriter::settled(double unbalance, int evaluations) {

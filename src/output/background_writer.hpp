@@ -11,6 +11,12 @@
 
 namespace railwave {
 
+/// On how many threads a background writer compresses large arrays, its own among them.
+struct CompressionThreads {
+  int beside_run = 1;  ///< while the run goes on
+  int run_waits = 1;   ///< while it waits for the writer, as at its end
+};
+
 /// A ResultsWriter that works in a thread of its own: what it is given it copies into plain data, and returns before
 /// that is on the disk. The file becomes the same. After the constructor that thread alone touches HDF5 for this file,
 /// under hdf5::in_use(); so must whoever else does while this object lives.
@@ -23,7 +29,7 @@ class BackgroundWriter {
   /// Throws at once what the ResultsWriter's constructor throws.
   /// @param on_failure called by the thread as soon as the disk refuses results
   BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {},
-                   std::function<void()> on_failure = {});
+                   std::function<void()> on_failure = {}, CompressionThreads threads = {});
 
   void settled(double unbalance, int evaluations);
   void history(const HistorySample& sample);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Kokkos_Core.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +15,7 @@
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
+#include "kernels/support/spaces.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
@@ -113,6 +116,19 @@ Vec3 undeformed_position(const NodalState& nodal, const Ties& ties, const LoadMo
   return mean;
 }
 
+/// A run on the host needs the processors, one on a GPU few of them. More threads than these wait for each other's
+/// chunks to be written.
+CompressionThreads compression_threads() {
+  constexpr int most = 16, most_beside_device = 8;
+#ifdef RAILWAVE_SERIAL
+  const int all = 1;
+#else
+  const int all = Kokkos::DefaultHostExecutionSpace().concurrency();
+#endif
+  const int beside = on_device ? std::clamp(all - 1, 1, most_beside_device) : std::min(all, 2);
+  return {beside, std::min(all, most)};
+}
+
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -182,7 +198,9 @@ void ResultsFile::begin(const Model& model) {
     description_.contacts[c].slave_surface = surface_of(model, model.ties, pair.slave_nodes, pair.slave_facets);
     description_.contacts[c].master_surface = surface_of(model, model.ties, pair.master_nodes, pair.master_segments);
   }
-  writing([&] { writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop); });
+  writing([&] {
+    writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop, compression_threads());
+  });
 }
 
 template <class Do>

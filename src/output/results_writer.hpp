@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "output/checkpoint_file.hpp"
@@ -65,6 +66,10 @@ class ResultsWriter {
   ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
+
+  /// What is written from now on is compressed so, see hdf5::File::compress_on(). The sections that are made with the
+  /// first output have it.
+  void compress_on(hdf5::ThreadCount threads) { file_.compress_on(std::move(threads)); }
 
   /// How far from equilibrium the run begins: sum of |unbalanced nodal force| over that of applied and contact forces,
   /// and the evaluations of the forces that took; 0 for a state that was there already.

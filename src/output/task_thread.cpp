@@ -11,15 +11,23 @@ TaskThread::~TaskThread() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ending_ = true;
+    awaited_ = true;
   }
   added_.notify_one();
   thread_.join();
 }
 
+template <class Condition>
+void TaskThread::wait(std::unique_lock<std::mutex>& lock, const Condition& condition) {
+  awaited_ = true;
+  done_.wait(lock, condition);
+  awaited_ = false;
+}
+
 void TaskThread::add(std::function<void()> task, std::size_t size) {
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait(lock, [&] { return failure_ || taken_ == 0 || taken_ + size <= capacity_; });
+    wait(lock, [&] { return failure_ || taken_ == 0 || taken_ + size <= capacity_; });
     throw_if_failed();
     waiting_.push_back({std::move(task), size});
     taken_ += size;
@@ -29,7 +37,7 @@ void TaskThread::add(std::function<void()> task, std::size_t size) {
 
 void TaskThread::finish() {
   std::unique_lock<std::mutex> lock(mutex_);
-  done_.wait(lock, [&] { return failure_ || taken_ == 0; });
+  wait(lock, [&] { return failure_ || taken_ == 0; });
   throw_if_failed();
 }
 

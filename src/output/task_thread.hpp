@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -29,12 +30,17 @@ class TaskThread {
   /// Returns when every task is done.
   void finish();
 
+  /// Whether the owner waits for this thread now, in add(), finish() or the destructor. Any thread may ask.
+  bool is_awaited() const { return awaited_; }
+
  private:
   struct Waiting {
     std::function<void()> task;
     std::size_t size;
   };
   void work();
+  template <class Condition>
+  void wait(std::unique_lock<std::mutex>& lock, const Condition& condition);
   void throw_if_failed() const;
 
   const std::size_t capacity_;
@@ -44,6 +50,7 @@ class TaskThread {
   std::deque<Waiting> waiting_;
   std::size_t taken_ = 0;  ///< of the capacity, by what waits and what is being done
   std::exception_ptr failure_;
+  std::atomic<bool> awaited_{false};
   bool ending_ = false;
   std::thread thread_;  // last: it uses all of the above
 };

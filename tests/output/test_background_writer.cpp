@@ -1,17 +1,16 @@
 // Results written by a thread of their own: the same file as written directly, and the same errors.
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <map>
 
 #include "output/background_writer.hpp"
+#include "tests/output/full_disk.hpp"
 #include "tests/output/made_up_run.hpp"
 
 using namespace railwave;
@@ -56,25 +55,6 @@ void check_same_results(const std::string& path, const std::string& expected_pat
     CHECK(same_bits(results.at(name).second, dataset.second));
   }
 }
-
-/// As long as it lives no file grows beyond `bytes`: a full disk, seen from here.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &limit_);
-    const rlimit small{bytes, limit_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  FullDisk(const FullDisk&) = delete;
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &limit_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit limit_{};
-  void (*handler_)(int);
-};
 
 /// What goes to the error stream as long as it lives goes to a file instead.
 class ErrorStream {
@@ -143,6 +123,27 @@ TEST_CASE("results written beside the run are those written between its steps") 
   CHECK(text_of(other_folder / "run.xdmf") == text_of(folder / "run.xdmf"));
   CHECK(hdf5::File::open(beside).root().text_attribute("reason") == "completed");
   CHECK_FALSE(fs::exists(beside + ".new"));
+}
+
+TEST_CASE("a large output is the same whether one thread compresses it or several") {
+  const made_up::TemporaryFolder folder, other_folder;
+  const std::string direct = folder / "run.h5", beside = other_folder / "run.h5";
+  RunDescription run = made_up::description();
+  OutputSet& set = run.sets[0];
+  const std::vector<int> corners(set.corners.begin(), set.corners.begin() + set.corner_count);
+  while (set.elements.size() < 50000) {  // whose stress is five chunks
+    set.elements.push_back(static_cast<int>(set.elements.size()));
+    set.corners.insert(set.corners.end(), corners.begin(), corners.end());
+  }
+  {
+    ResultsWriter writer(direct, run);
+    made_up::feed(writer, made_up::steps);
+    writer.end(made_up::summary());
+  }
+  BackgroundWriter writer(beside, run, {}, {}, {2, 4});
+  made_up::feed(writer, made_up::steps);
+  writer.end(made_up::summary());
+  check_same_results(beside, direct);
 }
 
 TEST_CASE("a run that fails without an end leaves what it had given") {

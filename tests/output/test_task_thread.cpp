@@ -151,3 +151,23 @@ TEST_CASE("the destructor does what waits, and throws nothing") {
   CHECK(done == 11);
   { const TaskThread idle(1); }
 }
+
+TEST_CASE("a thread knows whether its owner waits for it") {
+  std::atomic<bool> asked{false};
+  bool before = true, at_last = false;
+  TaskThread thread(1);
+  thread.add([&] {
+    before = thread.is_awaited();
+    asked = true;
+    at_last = comes_true([&] { return thread.is_awaited(); });
+  });
+  REQUIRE(comes_true([&] { return asked.load(); }));
+  SECTION("for all") { thread.finish(); }
+  SECTION("for its capacity") {
+    thread.add([] {});
+  }
+  thread.finish();
+  CHECK_FALSE(before);
+  CHECK(at_last);
+  CHECK_FALSE(thread.is_awaited());
+}

@@ -43,6 +43,9 @@ class Handle {
 
 using Shape = std::vector<hsize_t>;
 
+/// How many threads may compress what is written now, the caller's among them; empty: HDF5 compresses, on that thread.
+using ThreadCount = std::function<int()>;
+
 /// Name of groups whose datasets have any number of rows for each output. The group that holds such a one has a growing
 /// dataset `rows`: how many there are up to and with each output.
 inline constexpr const char* near_nodes = "near";
@@ -52,7 +55,8 @@ inline constexpr const char* near_nodes = "near";
 class Dataset {
  public:
   Dataset() = default;
-  Dataset(Handle id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
+  Dataset(Handle id, std::string name, ThreadCount threads = {})
+      : id_(std::move(id)), name_(std::move(name)), threads_(std::move(threads)) {}
 
   Shape shape() const;
   bool is_single() const;  ///< numbers of single precision
@@ -76,6 +80,7 @@ class Dataset {
   Shape extent() const;  ///< shape() without checking for free memory
   Handle id_;
   std::string name_;
+  ThreadCount threads_;
 };
 
 /// How a growing dataset is stored. Compressed chunks are written once and whole: one that is rewritten in another size
@@ -93,8 +98,8 @@ enum class Check { by_chunk, by_seal };
 class Group {
  public:
   Group() = default;
-  Group(Handle id, std::string name, bool extends = false)
-      : id_(std::move(id)), name_(std::move(name)), extends_(extends) {}
+  Group(Handle id, std::string name, bool extends = false, ThreadCount threads = {})
+      : id_(std::move(id)), name_(std::move(name)), extends_(extends), threads_(std::move(threads)) {}
 
   Group create_group(const std::string& name) const;
   Group group(const std::string& name) const;
@@ -145,6 +150,7 @@ class Group {
   Handle id_;
   std::string name_;
   bool extends_ = false;  ///< takes what is there
+  ThreadCount threads_;
 };
 
 class File {
@@ -168,6 +174,9 @@ class File {
   File(File&& other) noexcept;
   File& operator=(File&& other) noexcept;
   ~File();
+
+  /// What groups that are asked for from now on, and their datasets, compress on several threads where it pays.
+  void compress_on(ThreadCount threads) { threads_ = std::move(threads); }
 
   bool is_open() const { return id_.get() >= 0; }
   Group root() const;
@@ -194,6 +203,7 @@ class File {
   std::string beside_;  ///< its name while that is unfinished
   FileKind kind_;
   bool extends_ = false;
+  ThreadCount threads_;
 };
 
 /// HDF5 may loop without end in a damaged file. From now on a call of the readers may take so many seconds of

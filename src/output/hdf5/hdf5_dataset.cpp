@@ -6,6 +6,7 @@
 #include "case/memory.hpp"
 #include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
+#include "output/hdf5/hdf5_chunks.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 
 namespace railwave::hdf5 {
@@ -51,6 +52,7 @@ void Dataset::append(const T* rows, hsize_t count) {
   whole[0] += count;
   check(H5Dset_extent(id_.get(), whole.data()), "extending " + name_);
   if (count_of(block) == 0) return;  // a set without entries still counts its times
+  if (write_chunks(id_.get(), name_, start[0], block, rows, threads_)) return;
   const Handle space = file_space(id_.get(), name_);
   check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
         "extending " + name_);

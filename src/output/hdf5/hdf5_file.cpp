@@ -197,7 +197,8 @@ File::File(File&& other) noexcept
       name_(std::exchange(other.name_, Name::own)),
       beside_(std::move(other.beside_)),
       kind_(std::move(other.kind_)),
-      extends_(other.extends_) {}
+      extends_(other.extends_),
+      threads_(std::move(other.threads_)) {}
 
 File& File::operator=(File&& other) noexcept {
   if (this == &other) return *this;
@@ -208,6 +209,7 @@ File& File::operator=(File&& other) noexcept {
   beside_ = std::move(other.beside_);
   kind_ = std::move(other.kind_);
   extends_ = other.extends_;
+  threads_ = std::move(other.threads_);
   return *this;
 }
 
@@ -224,7 +226,7 @@ void File::abandon() noexcept {
 
 Group File::root() const {
   expect_free_memory();
-  return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_};
+  return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_, threads_};
 }
 
 void File::flush() const {

@@ -5,6 +5,7 @@
 #include "case/memory.hpp"
 #include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
+#include "output/hdf5/hdf5_chunks.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 
 namespace railwave::hdf5 {
@@ -47,21 +48,21 @@ Group Group::create_group(const std::string& name) const {
   if (extends_ && has(name)) return group(name);
   expect_free_memory();
   const hid_t id = H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
+  return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/", extends_, threads_};
 }
 
 Group Group::group(const std::string& name) const {
   expect_free_memory();
   const LimitedCall limited;
   return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose),
-          name_ + name + "/", extends_};
+          name_ + name + "/", extends_, threads_};
 }
 
 Dataset Group::dataset(const std::string& name) const {
   expect_free_memory();
   const LimitedCall limited;
   return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose),
-          name_ + name};
+          name_ + name, threads_};
 }
 
 bool Group::has(const std::string& name) const {
@@ -122,7 +123,7 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
       H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   Handle made(check(id, what), H5Dclose);
   set_unit(id, unit_of(name_ + name), what);
-  return {std::move(made), name_ + name};
+  return {std::move(made), name_ + name, threads_};
 }
 
 template <class T>
@@ -146,7 +147,8 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
       H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   const Handle dataset(check(id, what), H5Dclose);
   set_unit(id, unit.empty() ? unit_of(name_ + name) : unit, what);
-  if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+  if (values.empty() || write_chunks(id, name_ + name, 0, shape, values.data(), threads_)) return;
+  check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
 }
 
 template <class Do>

@@ -342,12 +342,7 @@ bool write_chunks([[maybe_unused]] hid_t dataset, [[maybe_unused]] const std::st
 #define RAILWAVE_FOR_TYPE(T) \
   template bool write_chunks<T>(hid_t, const std::string&, hsize_t, const Shape&, const T*, const ThreadCount&);
 
-RAILWAVE_FOR_TYPE(double)
-RAILWAVE_FOR_TYPE(float)
-RAILWAVE_FOR_TYPE(int)
-RAILWAVE_FOR_TYPE(long)
-RAILWAVE_FOR_TYPE(signed char)
-RAILWAVE_FOR_TYPE(unsigned char)
+RAILWAVE_EACH_VALUE_TYPE(RAILWAVE_FOR_TYPE)
 #undef RAILWAVE_FOR_TYPE
 
 }  // namespace railwave::hdf5

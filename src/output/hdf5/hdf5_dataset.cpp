@@ -105,12 +105,7 @@ std::vector<T> Dataset::read_rows(hsize_t row, hsize_t count) const {
   template std::vector<T> Dataset::read_row<T>(hsize_t) const; \
   template std::vector<T> Dataset::read_rows<T>(hsize_t, hsize_t) const;
 
-RAILWAVE_FOR_TYPE(double)
-RAILWAVE_FOR_TYPE(float)
-RAILWAVE_FOR_TYPE(int)
-RAILWAVE_FOR_TYPE(long)
-RAILWAVE_FOR_TYPE(signed char)
-RAILWAVE_FOR_TYPE(unsigned char)
+RAILWAVE_EACH_VALUE_TYPE(RAILWAVE_FOR_TYPE)
 #undef RAILWAVE_FOR_TYPE
 
 }  // namespace railwave::hdf5

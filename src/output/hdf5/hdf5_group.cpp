@@ -233,12 +233,7 @@ void Group::check_last() const {
   template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, const std::string&, Check) \
       const;
 
-RAILWAVE_FOR_TYPE(double)
-RAILWAVE_FOR_TYPE(float)
-RAILWAVE_FOR_TYPE(int)
-RAILWAVE_FOR_TYPE(long)
-RAILWAVE_FOR_TYPE(signed char)
-RAILWAVE_FOR_TYPE(unsigned char)
+RAILWAVE_EACH_VALUE_TYPE(RAILWAVE_FOR_TYPE)
 #undef RAILWAVE_FOR_TYPE
 
 }  // namespace railwave::hdf5

@@ -18,6 +18,10 @@ Result check(Result result, const std::string& what) {
   return result;
 }
 
+/// The types of which arrays are read and written: expands `of_type(T)` for each.
+#define RAILWAVE_EACH_VALUE_TYPE(of_type) \
+  of_type(double) of_type(float) of_type(int) of_type(long) of_type(signed char) of_type(unsigned char)
+
 template <class T>
 hid_t native_type() {
   if constexpr (std::is_same_v<T, double>)

@@ -50,7 +50,7 @@ DeformedStep::DeformedStep(const Model& model, DeformedElements elements, Sample
       fast_(striking_speed(model)),
       undeformed_(model.stable_step.limit) {}
 
-bool DeformedStep::may_strike() const { return 2 * speed_ > fast_ && (2 * approach_ > fast_ || window_is_new()); }
+bool DeformedStep::may_strike() const { return moves_fast() && (2 * approach_ > fast_ || window_is_new()); }
 
 bool DeformedStep::window_is_new() const { return layouts_ != layouts_of(contacts_); }
 
@@ -95,7 +95,9 @@ bool DeformedStep::check_again() {
 bool DeformedStep::check(double size) {
   const long step = nodal_.step, cycle = nodal_.subcycling.cycle();
   if (nodal_.relative.begun) update_absolute_nodes(nodal_);
-  if (step >= next_ || window_is_new()) {
+  if (!moves_fast()) {
+    layouts_ = none;  // nobody asks for the approach, and it will be another one
+  } else if (step >= next_ || window_is_new()) {
     approach_ = fastest_approach(nodal_, contacts_);
     layouts_ = layouts_of(contacts_);
   }
@@ -129,7 +131,7 @@ bool DeformedStep::check(double size) {
         std::fmin(steps, share_of_way_at_rest * (left - alarm) * static_cast<double>(step - last_) / (left_ - left));
   }
   // What lies on the other body from the beginning is met in the first step, before there are windows.
-  if (step == 0 && 2 * speed_ > fast_) {
+  if (step == 0 && moves_fast()) {
     steps = 1;
     moving_ = true;
   }

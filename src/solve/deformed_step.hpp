@@ -54,7 +54,10 @@ class DeformedStep {
   }
 
  private:
+  static constexpr long none = -1;
+
   bool contact_checked_before(long step) const;
+  bool moves_fast() const { return 2 * speed_ > fast_; }
   bool may_strike() const;
   bool window_is_new() const;
   bool check(double size);
@@ -76,7 +79,7 @@ class DeformedStep {
   double left_ = 1;        ///< share of the limit that was left then
   double speed_ = 0;       ///< m/s, of the fastest element then
   double approach_ = 0;    ///< m/s, of a node in the contacts' windows against the other body, at most
-  long layouts_ = -1;      ///< of windows, when that was found: a new one has other nodes
+  long layouts_ = none;    ///< of windows, when that was found: a new one has other nodes
   bool striking_ = false;  ///< nodes were about to strike then
   bool given_up_ = false;  ///< the step was too long for too long, see beyond_help
   bool moving_ = false;    ///< elements were coming in the way then

@@ -6,7 +6,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -66,6 +65,7 @@ class LaunchGraph {
   Node after(const Node& node, bool urgent, const std::function<void()>& launch) {
     // What is thrown meanwhile must not leave the space recording.
     std::exception_ptr failure;
+    const NativeNodes before = urgent ? nodes_of(graph_.native_graph()) : NativeNodes{};
     const Node done = node.cuda_capture(ExecutionSpace(), [launch, &failure](const ExecutionSpace&) {
       try {
         launch();
@@ -74,8 +74,9 @@ class LaunchGraph {
       }
     });
     if (failure) std::rethrow_exception(failure);
-    for (cudaGraphNode_t recorded : nodes_of(graph_.native_graph()))
-      if (recorded_.insert(recorded).second && urgent) put_first(recorded);
+    if (urgent)
+      for (cudaGraphNode_t one : nodes_of(graph_.native_graph()))
+        if (!std::binary_search(before.begin(), before.end(), one)) put_first(one);
     return done;
   }
 
@@ -100,11 +101,15 @@ class LaunchGraph {
   void launch(const ExecutionSpace& space) const { launches_->launch(space); }
 
  private:
-  static std::vector<cudaGraphNode_t> nodes_of(cudaGraph_t graph) {
+  using NativeNodes = std::vector<cudaGraphNode_t>;
+
+  /// Ascending.
+  static NativeNodes nodes_of(cudaGraph_t graph) {
     std::size_t count = 0;
     check_graph(cudaGraphGetNodes(graph, nullptr, &count), "count the launches of a graph");
-    std::vector<cudaGraphNode_t> nodes(count);
+    NativeNodes nodes(count);
     check_graph(cudaGraphGetNodes(graph, nodes.data(), &count), "list the launches of a graph");
+    std::sort(nodes.begin(), nodes.end());
     return nodes;
   }
 
@@ -126,7 +131,6 @@ class LaunchGraph {
   }
 
   Kokkos::Experimental::Graph<ExecutionSpace> graph_;
-  std::set<cudaGraphNode_t> recorded_;
   std::unique_ptr<RepeatedLaunches> launches_;
 };
 

@@ -70,12 +70,12 @@ struct ElementForce {
            4 * scratch_alignment + (on_device ? sizeof(std::uint16_t) * (blocks.pack_stride + blocks.place_stride) : 0);
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
-    run(team, listed.extent(0) > 0 ? listed(team.league_rank()) : team.league_rank());
-  }
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
 
+  /// @param i which of the blocks to compute
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
+  KOKKOS_INLINE_FUNCTION void run(const Member& team, const int i) const {
+    const int p = listed.extent(0) > 0 ? listed(i) : i;
     if constexpr (in_records)
       run_records(team, p);
     else

@@ -90,10 +90,12 @@ void build_stable_step(Model& model, Transport* transport = nullptr);
 void help_with_stable_step(Model& model, Transport& transport);
 /// subcycling.cpp: levels of nodes
 void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);
-/// node_arrays.cpp: of shared nodes those that nothing but elements concern come first, and last those of multipliers,
+/// node_order.cpp: of shared nodes those that nothing but elements concern come first, and last those of multipliers,
 /// prescribed motions, ties and non-reflecting ends, beside which a device moves the others
-void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
-                        const Ties& ties, const NonReflectingEnds& ends, NodalState& nodal);
+/// @param in_parts whether elements may be computed in parts
+void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
+                        const std::vector<PrescribedSet>& prescribed, const Ties& ties, const NonReflectingEnds& ends,
+                        bool in_parts, NodalState& nodal);
 /// left_out.cpp: what the scene does not need and the run will not compute
 std::vector<std::string> what_is_left_out(const scene::Scene& scene);
 

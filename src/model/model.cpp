@@ -94,7 +94,8 @@ void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Tra
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   build_subcycling(model.elements, model.ends, model);
-  order_shared_nodes(model.contacts, model.prescribed, model.ties, model.ends, model);
+  order_shared_nodes(model.elements, model.contacts, model.prescribed, model.ties, model.ends, transport == nullptr,
+                     model);
   if (rank == 0) plan_steps(model.scene, model.subcycling.cycle(), model);
   give_freed_memory_back();
 }

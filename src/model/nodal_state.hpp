@@ -7,6 +7,7 @@
 #include "kernels/nodes/shared_nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
+#include "model/elements/element_model.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "model/subcycling.hpp"
 
@@ -23,6 +24,7 @@ struct NodalState {
   SharedNodes shared;  ///< those that no block advances by itself
   int early_shared =
       0;  ///< so many of them, the first, wait for nothing but elements and loads: see order_shared_nodes()
+  ElementParts parts;     ///< in which an advancing step computes the elements
   Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;
   FreeNodeArrays free_nodes;  ///< of contacts by multipliers; empty without

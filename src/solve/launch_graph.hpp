@@ -61,11 +61,11 @@ class LaunchGraph {
   Node root() const { return graph_.root_node(); }
 
   /// Records what `launch` launches, one after the other, to begin when a node is done.
-  /// @param urgent they get room on the device before others that wait for it
-  Node after(const Node& node, bool urgent, const std::function<void()>& launch) {
+  /// @param urgency they get room on the device before those of less; 0: after all others
+  Node after(const Node& node, int urgency, const std::function<void()>& launch) {
     // What is thrown meanwhile must not leave the space recording.
     std::exception_ptr failure;
-    const NativeNodes before = urgent ? nodes_of(graph_.native_graph()) : NativeNodes{};
+    const NativeNodes before = urgency > 0 ? nodes_of(graph_.native_graph()) : NativeNodes{};
     const Node done = node.cuda_capture(ExecutionSpace(), [launch, &failure](const ExecutionSpace&) {
       try {
         launch();
@@ -74,9 +74,9 @@ class LaunchGraph {
       }
     });
     if (failure) std::rethrow_exception(failure);
-    if (urgent)
+    if (urgency > 0)
       for (cudaGraphNode_t one : nodes_of(graph_.native_graph()))
-        if (!std::binary_search(before.begin(), before.end(), one)) put_first(one);
+        if (!std::binary_search(before.begin(), before.end(), one)) put_first(one, urgency);
     return done;
   }
 
@@ -114,18 +114,18 @@ class LaunchGraph {
   }
 
   /// What was recorded together is a graph within the graph.
-  static void put_first(cudaGraphNode_t node) {
+  static void put_first(cudaGraphNode_t node, int urgency) {
     cudaGraphNodeType type;
     check_graph(cudaGraphNodeGetType(node, &type), "look at a graph");
     if (type == cudaGraphNodeTypeGraph) {
       cudaGraph_t within = nullptr;
       check_graph(cudaGraphChildGraphNodeGetGraph(node, &within), "look at a graph");
-      for (cudaGraphNode_t one : nodes_of(within)) put_first(one);
+      for (cudaGraphNode_t one : nodes_of(within)) put_first(one, urgency);
     } else if (type == cudaGraphNodeTypeKernel) {
       int least = 0, greatest = 0;  // the greatest has the smallest number
       check_graph(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
       cudaLaunchAttributeValue value{};
-      value.priority = std::max(greatest, least - 1);
+      value.priority = std::max(greatest, least - urgency);
       check_graph(cudaGraphKernelNodeSetAttribute(node, cudaLaunchAttributePriority, &value), "set a priority");
     }
   }

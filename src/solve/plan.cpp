@@ -54,8 +54,8 @@ GoingAlong going_along(const Model& model, StepKind kind, const RowExchange* exc
 }
 
 EarlyNodes early_nodes(const Model& model, const RowExchange* exchange) {
-  if (exchange != nullptr) return EarlyNodes::with_others;
-  return model.ties.arrays.active() ? EarlyNodes::apart : EarlyNodes::beside_motion;
+  if (exchange != nullptr) return exchange->between_devices() ? EarlyNodes::apart : EarlyNodes::with_others;
+  return model.ties.arrays.active() || model.parts.group >= 0 ? EarlyNodes::apart : EarlyNodes::beside_motion;
 }
 
 std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
@@ -108,6 +108,19 @@ std::vector<Task> in_space(std::vector<Task> tasks, const ExecutionSpace* space)
   return tasks;
 }
 
+/// Between ranks' devices: what comes after all elements goes beside the nodes that no other task waits for.
+void put_others_beside(Plan& plan, RowExchange& exchange) {
+  const auto later = std::find_if(plan.forces.begin(), plan.forces.end(),
+                                  [](const Task& task) { return task.stage > Stage::own_forces; });
+  const auto beside = [&](const Task& task) {
+    return task.begins == Begins::in_order ? in_space({task}, exchange.side_space()).front() : task;
+  };
+  std::transform(later, plan.forces.end(), later, beside);
+  std::transform(plan.motion.begin(), plan.motion.end(), plan.motion.begin(), beside);
+  plan.forces.insert(later, placed({exchange.side_begin_task()}, Stage::passed_on, 0).front());
+  append(plan.motion, placed({exchange.side_end_task()}, Stage::tied_motion, 0));
+}
+
 }  // namespace
 
 std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, std::vector<Task> others) {
@@ -130,6 +143,7 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
+  append(tasks, frame_tasks(model, model, kind));
   constexpr int of_contact = OwnForceLanes::contact;
   std::vector<Task> others = load_tasks(model, model, model.beams, kind, along);
   append(others, placed(wait_before_search(model, true, exchange), Stage::own_forces, of_contact));
@@ -156,7 +170,11 @@ std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdat
 }
 
 Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
-  return {force_tasks(model, kind, nullptr, exchange), motion_tasks(model, kind, exchange)};
+  Plan plan{force_tasks(model, kind, nullptr, exchange), motion_tasks(model, kind, exchange)};
+  const auto is_apart = [](const Task& task) { return task.begins == Begins::after_own_forces; };
+  if (exchange != nullptr && std::any_of(plan.motion.begin(), plan.motion.end(), is_apart))
+    put_others_beside(plan, *exchange);
+  return plan;
 }
 
 StepPlans::StepPlans(Model& model, RowExchange* exchange)

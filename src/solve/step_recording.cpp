@@ -126,6 +126,7 @@ struct StepRecording::Recordings {
         (task.recordable ? recordable : plain).push_back(task);
         if (task.recordable && task.every > model.subcycling.cycle()) rare.push_back(task);
         crowded = crowded || (task.recordable && task.bulk);
+        in_parts = in_parts || task.part > 0;
       }
   }
 
@@ -198,17 +199,34 @@ struct StepRecording::Recordings {
     return steps;
   }
 
+  /// Where elements fill the device, in parts or not: the later part last.
+  int urgency(const Task& task) const {
+    if (!crowded) return 0;
+    if (!task.bulk) return 2;
+    return in_parts && task.stage == Stage::own_forces && task.part == 0 ? 1 : 0;
+  }
+
+  /// What the next step begins after.
+  struct Ends {
+    LaunchGraph::Node tasks;  ///< for all but elements
+    LaunchGraph::Node all;    ///< for elements
+  };
+
   void run_recordable(const Instant& instant) const {
     for (const Task& task : recordable)
       if (task.due(model.step)) task.run(instant);
   }
 
-  /// A stage's lanes begin when all lanes of the stage before are done. In a space of its own one task comes after the
-  /// other: what the others of that device launch fills it, and a graph with lanes takes the host 20 times as long to
-  /// launch.
-  LaunchGraph::Node record_step(LaunchGraph& graph, const LaunchGraph::Node& begin, const Instant& instant) const {
-    if (own) return graph.after(begin, false, [this, &instant] { run_recordable(instant); });
-    LaunchGraph::Node ready = begin, own_forces = begin;
+  /// A stage's lanes begin when all lanes of the stage before are done. Where elements come in parts, what concerns the
+  /// first part's nodes goes on beside the second, and loads and contact of the next step beside the second part and
+  /// its nodes, of which they read none. In a space of its own one task comes after the other: what the others of that
+  /// device launch fills it, and a graph with lanes takes the host 20 times as long to launch.
+  Ends record_step(LaunchGraph& graph, Ends ready, const Instant& instant) const {
+    if (own) {
+      ready.tasks = graph.after(ready.tasks, 0, [this, &instant] { run_recordable(instant); });
+      return {ready.tasks, ready.tasks};
+    }
+    LaunchGraph::Node own_forces = ready.all, elements = ready.all;
     std::vector<const Task*> apart;
     for (std::size_t first = 0, end = 0; first < recordable.size(); first = end) {
       const Stage stage = recordable[first].stage;
@@ -216,20 +234,35 @@ struct StepRecording::Recordings {
       for (; end < recordable.size() && recordable[end].stage == stage; ++end) {
         const Task& task = recordable[end];
         if (!task.due(model.step)) continue;
-        if (task.apart)
-          apart.push_back(&task);
-        else
+        if (task.begins == Begins::in_order)
           lanes[task.lane].push_back(&task);
+        else
+          apart.push_back(&task);
       }
+      if (lanes.empty()) continue;
+      const bool of_forces = stage == Stage::own_forces;
       std::map<int, LaunchGraph::Node> done;
-      for (const auto& [lane, tasks] : lanes) done.emplace(lane, record_lane(graph, ready, tasks, done, instant));
-      std::vector<LaunchGraph::Node> ends;
-      for (const auto& [lane, last] : done) ends.push_back(last);
-      if (!ends.empty()) ready = LaunchGraph::joined(ends);
-      if (stage <= Stage::own_forces) own_forces = ready;
+      std::vector<LaunchGraph::Node> ends, all_ends, element_ends;
+      for (const auto& [lane, tasks] : lanes) {
+        const bool of_elements = of_forces && lane >= OwnForceLanes::elements;
+        const auto& begin = of_elements || stage < Stage::own_forces ? ready.all : ready.tasks;
+        const LaunchGraph::Node last = record_lane(graph, begin, tasks, done, instant);
+        done.emplace(lane, last);
+        all_ends.push_back(last);
+        if (tasks.front()->part == 0) ends.push_back(last);
+        if (of_elements) element_ends.push_back(last);
+      }
+      ready.tasks = LaunchGraph::joined(ends);
+      if (stage <= Stage::own_forces) ready.all = own_forces = LaunchGraph::joined(all_ends);
+      if (!element_ends.empty()) elements = LaunchGraph::joined(element_ends);
     }
     // Those that others wait for come before them.
-    return apart.empty() ? ready : LaunchGraph::joined({ready, record_lane(graph, own_forces, apart, {}, instant)});
+    std::vector<LaunchGraph::Node> last{ready.tasks};
+    for (const Task* task : apart)
+      last.push_back(
+          record_lane(graph, task->begins == Begins::after_elements ? elements : own_forces, {task}, {}, instant));
+    const LaunchGraph::Node all = LaunchGraph::joined(last);
+    return {in_parts ? ready.tasks : all, all};
   }
 
   /// @param done lanes of the same stage
@@ -240,7 +273,7 @@ struct StepRecording::Recordings {
         ready = first == 0 ? other->second : LaunchGraph::joined({ready, other->second});
       const bool bulk = tasks[first]->bulk;
       for (end = first + 1; end < tasks.size() && tasks[end]->joins < 0 && tasks[end]->bulk == bulk;) ++end;
-      ready = graph.after(ready, crowded && !bulk, [&tasks, first, end, &instant] {
+      ready = graph.after(ready, urgency(*tasks[first]), [&tasks, first, end, &instant] {
         for (std::size_t t = first; t < end; ++t) tasks[t]->run(instant);
       });
     }
@@ -267,7 +300,7 @@ struct StepRecording::Recordings {
       return [this, recorded] { exchange->repeat(*recorded); };
     }
     const auto graph = std::make_shared<LaunchGraph>();
-    LaunchGraph::Node ready = graph->root();
+    Ends ready{graph->root(), graph->root()};
     for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(*graph, ready, now); });
     graph->finish();
     return [this, graph] { graph->launch(space); };
@@ -285,7 +318,8 @@ struct StepRecording::Recordings {
   bool idle = true;             ///< the device has waited since the last graph
   const int most;
   std::vector<Task> plain, recordable, rare;
-  bool crowded = false;  ///< one of them is bulk
+  bool crowded = false;   ///< one of them is bulk
+  bool in_parts = false;  ///< they compute the elements in parts
   StepValues<double> load_values;
   StepValues<RigidPlace> places;
   std::map<Key, std::function<void()>> graphs;

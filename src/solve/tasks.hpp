@@ -58,6 +58,13 @@ enum class Stage {
   tied_motion
 };
 
+/// What a task waits for, where tasks run side by side. In the list it comes after all that it waits for in any case.
+enum class Begins {
+  in_order,          ///< the stages before its own; of elements in parts the first part alone
+  after_own_forces,  ///< Stage::own_forces, with all parts of the elements. No other task of its step waits for it
+  after_elements     ///< elements alone, all of them. Of the next step only elements wait for it
+};
+
 /// One piece of physics of a step, or several that one launch computes together.
 struct Task {
   std::string name;                         ///< also of the profiler's region around it
@@ -72,9 +79,8 @@ struct Task {
   int joins = -1;
   /// More than a device has room for at a time: where tasks run side by side, others get room first.
   bool bulk = false;
-  /// Waits for the tasks up to Stage::own_forces alone, and no other task of its step waits for it. Where a task is
-  /// apart it begins as soon as it may, though it comes later in the list.
-  bool apart = false;
+  Begins begins = Begins::in_order;
+  int part = 0;  ///< of elements that are computed in parts, see ElementParts
   /// Whether all that it does is to launch the same kernels at each step that it is due. If not, it reads nothing that
   /// its step's other tasks write, and may run before them all.
   bool recordable = true;
@@ -85,7 +91,8 @@ struct Task {
 /// Lanes of Stage::own_forces. On a device that the first launches fill, what comes later waits for room: small ones
 /// that others wait for come first.
 struct OwnForceLanes {
-  static constexpr int beams = 0, loads = 1, contact = 2, elements = 3;  ///< and one more for each further group
+  /// And one more for each further group of elements, then one for the second part of the largest.
+  static constexpr int beams = 0, loads = 1, contact = 2, elements = 3;
 };
 
 /// Puts tasks into a lane of a stage.
@@ -109,6 +116,9 @@ struct ListedBlocks {
 /// Before all else: nodes in single precision, and the double ones where these are read.
 Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
                             StepKind kind);
+
+/// Before elements in single precision: the frames from which their displacements are measured.
+std::vector<Task> frame_tasks(const NodalState& nodal, const ElementModel& elements, StepKind kind);
 
 /// (a) Loads, connectors, torques, beams, and their gather at the nodes. In advancing steps the beams' rotations, too
 /// (f to j): they follow from the beams' own moments.
@@ -155,7 +165,8 @@ Task rotation_task(const NodalState& nodal, const BeamModel& built);
 enum class EarlyNodes {
   with_others,    ///< in one launch: where tasks come one after the other
   beside_motion,  ///< beside multipliers and prescribed motions
-  apart           ///< beside all that comes after the elements: with ties that is a chain of small launches
+  apart           ///< beside all that comes after the elements: with ties that is a chain of small launches. Where the
+                  ///< elements come in parts, nodes that nothing but elements concerns beside all but elements
 };
 
 /// (f) to (j) Accelerations, constraints, velocities and positions of all nodes that no block has moved.

@@ -15,25 +15,29 @@ using namespace railwave::verify;
 namespace {
 
 /// @param graphs value of RAILWAVE_STEP_GRAPHS
-End end_with(const scene::Scene& scene, const std::string& graphs) {
+/// @param parts value of RAILWAVE_STEP_PARTS
+End end_with(const scene::Scene& scene, const std::string& graphs, const char* parts = "1") {
   setenv("RAILWAVE_STEP_GRAPHS", graphs.c_str(), 1);
+  setenv("RAILWAVE_STEP_PARTS", parts, 1);
   Model model;
   build_model(scene, model);
   run(model, {});
   unsetenv("RAILWAVE_STEP_GRAPHS");
+  unsetenv("RAILWAVE_STEP_PARTS");
   return end_of(model);
 }
 
 void recorded_as_plain(const scene::Scene& scene) {
   const End plain = end_with(scene, "0");
   REQUIRE(plain.steps > 150);
-  for (const char* graphs : {"1", "4", "16"}) {
-    INFO("graphs of " << graphs << " steps");
-    const End recorded = end_with(scene, graphs);
-    CHECK(recorded.steps == plain.steps);
-    CHECK(recorded.position == plain.position);
-    CHECK(recorded.velocity == plain.velocity);
-  }
+  for (const char* parts : {"1", "2"})
+    for (const char* graphs : {"1", "4", "16"}) {
+      INFO("graphs of " << graphs << " steps, elements in " << parts << " parts");
+      const End recorded = end_with(scene, graphs, parts);
+      CHECK(recorded.steps == plain.steps);
+      CHECK(recorded.position == plain.position);
+      CHECK(recorded.velocity == plain.velocity);
+    }
 }
 
 }  // namespace

@@ -50,6 +50,24 @@ struct ElementGroup {
   }
 };
 
+/// How often a group's elements would fill the device, all its threads at work.
+inline double fills_of_device(const ElementGroup& group) {
+  return static_cast<double>(group.blocks.count) * elements_of_block / ExecutionSpace().concurrency();
+}
+
+/// The blocks of the largest group in two parts, which a device computes one after the other: first those with nodes
+/// that loads, contact, constraints or ties concern, so that all of that goes on beside the elements of the second.
+struct ElementParts {
+  int group = -1;                   ///< of ElementModel::elements; -1: all is one part
+  std::vector<Array<int*>> blocks;  ///< of each part
+};
+
+/// @param by_tasks of each node, whether anything but elements concerns it
+/// @param chain whether tasks come after the elements that wait for each other: ties, multipliers, prescribed motions
+/// @return one part where two would not pay
+ElementParts divide_elements(const std::vector<ElementGroup>& groups, const std::vector<char>& by_tasks,
+                             bool chain);  // element_parts.cpp
+
 struct ElementHistories;
 
 /// The elements of a model with their materials.

@@ -21,6 +21,7 @@ namespace {
 Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   Plan plan;
   if (model.relative.active()) plan.forces.push_back(corotating_frames_task(model, model.elements, model, kind));
+  append(plan.forces, frame_tasks(model, model, kind));
   append(plan.forces, shared_force_tasks(model, kind, exchange, {}));
   plan.motion = node_tasks(model, model.elements, model, kind, {}, EarlyNodes::with_others);
   return plan;

@@ -214,6 +214,18 @@ Task RowExchange::receive_task() {
   return task;
 }
 
+Task RowExchange::side_begin_task() {
+  Task task{"beginning of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->begin(); }};
+  task.recordable = between_devices();
+  return task;
+}
+
+Task RowExchange::side_end_task() {
+  Task task{"end of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->finish(); }};
+  task.recordable = between_devices();
+  return task;
+}
+
 std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {
   recording_ = true;
   try {

@@ -10,8 +10,8 @@ namespace railwave {
 namespace {
 
 /// Elements of an aggregate, at least; more where there would be more aggregates than that: of a compact body E fills
-/// up, and its factors take the square of their number.
-constexpr int least_elements = 16, most_aggregates = 600;
+/// up, and its factors take the square of their number. They stay on the host, for which a device waits.
+constexpr int least_elements = 16, most_aggregates = on_device ? 300 : 600;
 /// A motion counts if its size is that share of the aggregate's largest, squared.
 constexpr double least_motion = 1e-8;
 

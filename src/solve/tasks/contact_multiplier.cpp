@@ -59,24 +59,24 @@ AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, do
 }
 
 template <class Phase, class Pairs>
-void launch(const char* name, const Pairs& pairs) {
+void launch(const ExecutionSpace& space, const char* name, const Pairs& pairs) {
   // How many nodes can touch is known on the device only.
   int slaves = 0;
   for (const auto& pair : pairs.pairs) slaves += pair.window.bound();
   using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-  Kokkos::parallel_for(name, Policy(0, slaves), pairs);
+  Kokkos::parallel_for(name, Policy(space, 0, slaves), pairs);
 }
 
 /// A phase of all pairs: two by two in one launch where they are of the same kind, as those of a joint are.
 template <class Phase>
-void run_phase(const char* name, const std::vector<AnyMultiplier>& pairs) {
+void run_phase(const ExecutionSpace& space, const char* name, const std::vector<AnyMultiplier>& pairs) {
   for (std::size_t k = 0; k < pairs.size(); ++k)
     std::visit(
         [&](const auto& first) {
           using Pair = std::decay_t<decltype(first)>;
           const Pair* second = k + 1 < pairs.size() ? std::get_if<Pair>(&pairs[k + 1]) : nullptr;
-          if (second == nullptr) return launch<Phase>(name, MultiplierPairs<Pair, 1>{{first}});
-          launch<Phase>(name, MultiplierPairs<Pair, 2>{{first, *second}});
+          if (second == nullptr) return launch<Phase>(space, name, MultiplierPairs<Pair, 1>{{first}});
+          launch<Phase>(space, name, MultiplierPairs<Pair, 2>{{first, *second}});
           ++k;
         },
         pairs[k]);
@@ -105,13 +105,13 @@ void set_sweep(std::vector<AnyMultiplier>& pairs, int sweep) {
 }
 
 /// All pairs' multipliers are of one iteration: they may push the same nodes.
-void find_multipliers(std::vector<AnyMultiplier> pairs, int sweeps) {
+void find_multipliers(const ExecutionSpace& space, std::vector<AnyMultiplier> pairs, int sweeps) {
   for (int sweep = 1; sweep < sweeps; ++sweep) {
     set_sweep(pairs, sweep);
-    run_phase<Multiplier::Correct>("multipliers_correct", pairs);
+    run_phase<Multiplier::Correct>(space, "multipliers_correct", pairs);
   }
   set_sweep(pairs, sweeps);
-  run_phase<Multiplier::Finish>("multipliers_finish", pairs);
+  run_phase<Multiplier::Finish>(space, "multipliers_finish", pairs);
 }
 
 }  // namespace
@@ -133,15 +133,15 @@ MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& no
               }};
   search.recordable = false;
   const Task begin{"location of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {
-                     run_phase<Multiplier::Begin>("multipliers_begin",
+                     run_phase<Multiplier::Begin>(instant.space(), "multipliers_begin",
                                                   multipliers_of(scene, nodal, contacts, kind, instant.elapsed));
                    }};
-  const Task find{"multipliers of" + names, "d",
-                  [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
-                    Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
-                                         PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
-                    find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
-                  }};
+  const Task find{
+      "multipliers of" + names, "d", [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+        Kokkos::parallel_for("multipliers_predict", SpreadRange(instant.space(), 0, most_listed(nodal, contacts)),
+                             PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
+        find_multipliers(instant.space(), multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
+      }};
   return {{search, begin}, {find}};
 }
 

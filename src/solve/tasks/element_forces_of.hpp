@@ -14,7 +14,7 @@ namespace railwave {
 inline constexpr int most_contact_teams = 128;
 
 template <class Block, bool Friction>
-void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const Block& functor, const Instant& instant,
+void forces_together(const NodalState& nodal, const ElementBlocks& blocks, Block functor, const Instant& instant,
                      const ElementLaunch& launch) {
   const ContactPair& pair = *launch.contact;
   using Together = ForcesTogether<Block, Friction>;
@@ -27,7 +27,9 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const
                                 : 0;
   SetLoads sets{};  // CUDA 13.0's compiler crashes on a conditional expression inside the functor's braces
   if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind, 0);
-  launch_teams(set_teams + contact_teams + blocks.count, Block::scratch_size(blocks),
+  if (launch.listed != nullptr) functor.listed = *launch.listed;
+  const int block_teams = launch.listed != nullptr ? static_cast<int>(launch.listed->extent(0)) : blocks.count;
+  launch_teams(set_teams + contact_teams + block_teams, Block::scratch_size(blocks),
                Together{sets, contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}),
                         functor, set_teams, contact_teams});
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "model/contact/contact_law.hpp"
@@ -13,7 +15,7 @@ constexpr long steps_between_frames = 64;
 static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
 
 /// Nodes in single precision need frames only for what the account and the outputs compute from the double ones.
-std::vector<Task> frame_tasks(const NodalState& nodal, const ElementGroup& group, StepKind kind, long every) {
+std::vector<Task> frame_tasks_of(const NodalState& nodal, const ElementGroup& group, StepKind kind, long every) {
   if (group.blocks.frame.extent(0) == 0) return {};
   const bool relative = nodal.relative.active() && kind != StepKind::settling;
   if (relative && kind == StepKind::advancing) return {};
@@ -24,9 +26,7 @@ std::vector<Task> frame_tasks(const NodalState& nodal, const ElementGroup& group
 }
 
 /// More than a GPU has places for, twice over.
-bool fills_device(const ElementGroup& group) {
-  return 2 * group.blocks.count * elements_of_block > ExecutionSpace().concurrency();
-}
+bool fills_device(const ElementGroup& group) { return 2 * fills_of_device(group) > 1; }
 
 std::string name_of(const ElementGroup& group) {
   std::string material;
@@ -81,31 +81,45 @@ std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& gro
 
 }  // namespace
 
+std::vector<Task> frame_tasks(const NodalState& nodal, const ElementModel& elements, StepKind kind) {
+  std::vector<Task> tasks;
+  for (const ElementGroup& group : elements.elements)
+    append(tasks, frame_tasks_of(nodal, group, kind, kind == StepKind::settling ? 1 : 1L << group.level));
+  return placed(std::move(tasks), Stage::begin, 0);
+}
+
 std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& elements,
                                 const std::vector<ContactPair>& contacts, const LoadModel& loads, StepKind kind,
                                 GoingAlong along, const ListedBlocks& listed) {
   std::vector<Task> tasks;
   const bool settling = kind == StepKind::settling;
-  const auto lane_of = [&](const ElementGroup& group) {
-    return OwnForceLanes::elements + static_cast<int>(&group - elements.elements.data());
-  };
+  const auto number_of = [&](const ElementGroup& group) { return static_cast<int>(&group - elements.elements.data()); };
+  const auto lane_of = [&](const ElementGroup& group) { return OwnForceLanes::elements + number_of(group); };
+  const int lanes_of_groups = OwnForceLanes::elements + static_cast<int>(elements.elements.size());
   const auto by_blocks = [](const ElementGroup& one, const ElementGroup& other) {
     return one.blocks.count < other.blocks.count;
   };
   const auto largest = std::max_element(elements.elements.begin(), elements.elements.end(), by_blocks);
   const auto listed_of = [&](const ElementGroup& group) {
-    return listed.of_group == nullptr ? nullptr : &(*listed.of_group)[&group - elements.elements.data()];
+    return listed.of_group == nullptr ? nullptr : &(*listed.of_group)[number_of(group)];
   };
   for (const ElementGroup& group : elements.elements) {
     const long steps = settling ? 1 : 1L << group.level;
-    if (listed.first) append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
     ElementLaunch launch{kind, nullptr, nullptr, listed_of(group)};
     if (&group == &elements.elements.front() && along.contact) launch.contact = &contacts.front();
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;
-    Task task = force_task(nodal, group, elements.in_single, launch);
-    task.every = steps;
-    task.bulk = &group == &*largest && fills_device(group);
-    append(tasks, placed({task}, Stage::own_forces, lane_of(group)));
+    const bool in_parts = nodal.parts.group == number_of(group) && kind == StepKind::advancing && !launch.listed;
+    const int parts = in_parts ? static_cast<int>(nodal.parts.blocks.size()) : 1;
+    for (int part = 0; part < parts; ++part) {
+      if (in_parts) launch.listed = &nodal.parts.blocks[part];
+      if (part > 0) launch.contact = nullptr, launch.sets = nullptr;
+      Task task = force_task(nodal, group, elements.in_single, launch);
+      if (in_parts) task.name += fmt::format(", part {} of {}", part + 1, parts);
+      task.every = steps;
+      task.bulk = &group == &*largest && fills_device(group);
+      task.part = part;
+      append(tasks, placed({task}, Stage::own_forces, part == 0 ? lane_of(group) : lanes_of_groups + part - 1));
+    }
   }
   // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.
   for (const ElementGroup& group : elements.elements)

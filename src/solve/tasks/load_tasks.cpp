@@ -92,19 +92,19 @@ std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflect
   return {{"non-reflecting ends", "a", [&nodal, &ends](const Instant& instant) {
              NonReflectingForce force{ends.arrays, nodal.subcycled_acceleration(), nodal.velocity_lag, instant.elapsed};
              force.acceleration.phase = nodal.subcycling.phase(nodal.step);
-             Kokkos::parallel_for("non_reflecting", SpreadRange(0, ends.arrays.count), force);
+             Kokkos::parallel_for("non_reflecting", SpreadRange(instant.space(), 0, ends.arrays.count), force);
            }}};
 }
 
 std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties) {
   if (!ties.arrays.active()) return {};
-  Task force{"forces of ties", "a", [&nodal, &ties](const Instant&) {
-               Kokkos::parallel_for("tie_force", SpreadRange(0, ties.arrays.slave_count),
+  Task force{"forces of ties", "a", [&nodal, &ties](const Instant& instant) {
+               Kokkos::parallel_for("tie_force", SpreadRange(instant.space(), 0, ties.arrays.slave_count),
                                     TieForce{ties.arrays, nodal.acceleration().force});
              }};
-  Task gather{"gather of ties", "a", [&nodal, &ties](const Instant&) {
+  Task gather{"gather of ties", "a", [&nodal, &ties](const Instant& instant) {
                 const TieArrays& arrays = ties.arrays;
-                Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
+                Kokkos::parallel_for("tie_gather", SumTeams(instant.space(), 3 * arrays.master_count, threads_of_sum),
                                      TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
               }};
   return placed({std::move(force), std::move(gather)}, Stage::passed_on, 0);

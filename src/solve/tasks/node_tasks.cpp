@@ -51,7 +51,7 @@ Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool 
                           const SharedRange& range) {
   return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
             Kokkos::parallel_for(
-                "shared_nodes", Range(range.begin, range.end),
+                "shared_nodes", Range(instant.space(), range.begin, range.end),
                 RelativeSharedUpdate{shared_forces(nodal, loads, rows_are_due, instant),
                                      relative_advance(nodal, {}, instant.step), nodal.relative.shared_arm});
           }};
@@ -59,7 +59,7 @@ Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool 
 
 Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const SharedRange& range) {
   return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
-            Kokkos::parallel_for("shared_nodes", Range(range.begin, range.end),
+            Kokkos::parallel_for("shared_nodes", Range(instant.space(), range.begin, range.end),
                                  SharedNodeUpdate{shared_forces(nodal, loads, rows_are_due, instant),
                                                   node_advance(nodal, instant.step)});
           }};
@@ -77,7 +77,8 @@ Task prescribed_task(const NodalState& nodal, const PrescribedSet& set) {
   return {"prescribed motion of " + set.motion->target, "g", [&nodal, &set](const Instant& instant) {
             PrescribedMotion motion = prescribed_motion(nodal, set, instant.step);
             if (instant.places != nullptr) motion.next.recorded = instant.places + set.number;
-            Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))), motion);
+            Kokkos::parallel_for("prescribed_motion", Range(instant.space(), 0, static_cast<int>(set.nodes.extent(0))),
+                                 motion);
           }};
 }
 
@@ -103,7 +104,7 @@ Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind) {
   const bool relative = nodal.relative.active() && kind != StepKind::settling;
   return {"tied nodes", "g", [&nodal, &ties, relative](const Instant& instant) {
             const TieFollow follow{ties.arrays, nodal.nodes, instant.step};
-            const SpreadRange slaves(0, ties.arrays.slave_count);
+            const SpreadRange slaves(instant.space(), 0, ties.arrays.slave_count);
             if (relative)
               Kokkos::parallel_for(
                   "ties", slaves,
@@ -134,10 +135,18 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
   const bool divided = inner_have_moved && early_nodes != EarlyNodes::with_others;
   const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = divided ? nodal.early_shared : 0;
   const std::string name = "nodes that element blocks share";
+  if (divided && nodal.parts.group >= 0) {
+    const int plain = nodal.shared.first_special;
+    add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, 1);
+    tasks.back().bulk = true;
+    tasks.back().begins = Begins::after_elements;
+    add({name + ", that others concern", plain, all}, Stage::other_motion, 0);
+    return tasks;
+  }
   if (early > 0) {
     add({name + ", beside what others wait for", 0, early}, Stage::motion, 1);
     tasks.back().bulk = true;
-    tasks.back().apart = early_nodes == EarlyNodes::apart;
+    if (early_nodes == EarlyNodes::apart) tasks.back().begins = Begins::after_own_forces;
   }
   add({name, early, all}, Stage::other_motion, 0);
   return tasks;

@@ -1,0 +1,158 @@
+#include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
+#include <utility>
+
+#include "solve/plan.hpp"
+#include "solve/statics/settle.hpp"
+#include "tests/solve/moved_blocks.hpp"
+#include "tests/verify/open_ends.hpp"
+#include "tests/verify/tied_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+constexpr const char* parts_variable = "RAILWAVE_STEP_PARTS";
+
+Model model_in_parts(const scene::Scene& scene, const char* parts) {
+  Model model;
+  setenv(parts_variable, parts, 1);
+  build_model(scene, model);
+  unsetenv(parts_variable);
+  set_initial_motion(model, model.nodes, model.beams);
+  return model;
+}
+
+bool of_elements(const Task& task) { return task.stage == Stage::own_forces && task.lane >= OwnForceLanes::elements; }
+
+/// Tasks of a step, and the model's clock then.
+struct Due {
+  std::vector<Task> tasks;
+  Instant instant;
+  long step = 0;
+  double velocity_lag = 0;
+
+  void run(Model& model) const {
+    const long step_now = std::exchange(model.step, step);
+    const double lag_now = std::exchange(model.velocity_lag, velocity_lag);
+    run_tasks(tasks, instant, step);
+    model.step = step_now;
+    model.velocity_lag = lag_now;
+  }
+};
+
+constexpr int steps = 120;
+
+/// Runs steps by a plan.
+/// @param step_tasks runs those of one
+template <class StepTasks>
+End after_steps(Model& model, const StepTasks& step_tasks) {
+  StepPlans plans(model);
+  const Plan& plan = plans.of(StepKind::advancing);
+  std::vector<Task> all = plan.forces;
+  append(all, plan.motion);
+  const double step = model.step_size;
+  for (int s = 0; s < steps; ++s) {
+    const Instant instant{s * step, step, s == 0 ? 0 : step};
+    model.time = instant.time;
+    step_tasks(Due{all, instant, model.step, model.velocity_lag});
+    plans.advance_clock(instant);
+  }
+  return end_of(model);
+}
+
+End in_order(Model& model) {
+  return after_steps(model, [&](const Due& all) { all.run(model); });
+}
+
+/// All but elements as early as what it waits for allows: loads and contact of a step before the second part of the
+/// elements of the step before, and before the nodes that these move.
+End elements_last(Model& model) {
+  Due left;
+  const auto end = [&] {
+    return after_steps(model, [&](const Due& all) {
+      std::size_t taken = 0;
+      const auto take = [&](const auto& wanted) {
+        Due some = all;
+        some.tasks.clear();
+        for (const Task& task : all.tasks)
+          if (wanted(task)) some.tasks.push_back(task);
+        taken += some.tasks.size();
+        return some;
+      };
+      const auto first = [](const Task& task) { return task.part == 0 && task.begins == Begins::in_order; };
+      const Due frames = take([](const Task& task) { return task.stage < Stage::own_forces; });
+      if (!frames.tasks.empty()) left.run(model);
+      frames.run(model);
+      take([](const Task& task) { return task.stage == Stage::own_forces && !of_elements(task); }).run(model);
+      if (frames.tasks.empty()) left.run(model);
+      take([&](const Task& task) { return of_elements(task) && first(task); }).run(model);
+      take([&](const Task& task) { return task.stage > Stage::own_forces && first(task); }).run(model);
+      left = take([&](const Task& task) { return !first(task); });
+      REQUIRE(taken == all.tasks.size());
+      if (all.step == steps - 1) left.run(model);
+    });
+  };
+  return end();
+}
+
+scene::Scene tied_and_open() {
+  TiedBlocks blocks;
+  blocks.fine = {8, 8, 32};
+  scene::Scene scene = blocks.scene(4e-4);
+  add_ramp(scene, "grows", 0, 6e-5);
+  add_pressure(scene, "fine.z_max", 1e7, "grows");
+  add_force(scene, "coarse.x_max", {2e3, 1e3, 0}, "grows");
+  add_dashpots(scene, "coarse.z_min");
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("all but elements may go on beside the second part of the elements, bit for bit") {
+  scene::Scene scene = tied_and_open();
+  SECTION("ties and non-reflecting ends") {}
+  SECTION("in single precision") { scene.solver.precision = scene::Precision::single_precision; }
+  SECTION("in mixed precision") { scene.solver.precision = scene::Precision::mixed; }
+  SECTION("ends without ties") {
+    scene.ties.clear();
+    scene.loads.pop_back();
+    add_dashpots(scene, "fine.z_min");
+  }
+  SECTION("contact by multipliers, prescribed motions, connectors") {
+    scene = moved_blocks();
+    for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
+    scene.parts[1].stiffness_damping = 0;
+    scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+  }
+  SECTION("contact by springs") {
+    scene = moved_blocks();
+    for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
+    scene.parts[1].stiffness_damping = 0;
+    scene.prescribed_motions.clear();
+  }
+  Model whole = model_in_parts(scene, "1"), divided = model_in_parts(scene, "2");
+  REQUIRE(whole.parts.group < 0);
+  REQUIRE(divided.parts.group >= 0);
+  CHECK(divided.parts.blocks[0].extent(0) > 0);
+  CHECK(divided.parts.blocks[1].extent(0) > 0);
+  const End expected = in_order(whole), end = elements_last(divided);
+  CHECK(end.position == expected.position);
+  CHECK(end.velocity == expected.velocity);
+}
+
+TEST_CASE("elements come in one part where they are not one launch") {
+  scene::Scene scene = tied_and_open();
+  SECTION("damping") {
+    for (scene::Part& part : scene.parts) part.stiffness_damping = 1e-8;
+  }
+  SECTION("subcycling") {
+    scene = moved_blocks();
+    scene.prescribed_motions.clear();
+    scene.parts[1].stiffness_damping = 0;
+    scene.meshes[1].box.divisions = {4, 4, 1};
+    scene.solver.subcycling = true;
+  }
+  CHECK(model_in_parts(scene, "2").parts.group < 0);
+}

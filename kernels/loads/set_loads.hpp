@@ -84,37 +84,19 @@ struct SetLoads {
   }
 };
 
-/// The same work but for the rows, where the sets are too many for a team: several share the chunks, and the one that
-/// is done last goes on with the sums and the laws. Which one that is changes no result.
-struct SetLoadTeams {
+/// The same work but for the rows, where the sets are too many for a team: a launch for each phase, whose threads lie
+/// all over a device.
+struct SetChunkSums {
+  SetMotion sets;
+  KOKKOS_INLINE_FUNCTION void operator()(const int c) const { sets.sum_chunk(c); }
+};
+struct SetSums {
+  SetMotion sets;
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const { sets.add_chunks(k); }
+};
+struct SetLaws {
   SetLoads all;
-  int teams;
-
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    const int rank = team.team_rank(), size = team.team_size();
-    for (int c = team.league_rank() * size + rank; c < all.chunk_count(); c += teams * size) all.sets.sum_chunk(c);
-    team.team_barrier();
-    if (!done_last(team)) return;
-    for (int k = rank; k < all.sum_count(); k += size) all.sets.add_chunks(k);
-    team.team_barrier();
-    for (int k = rank; k < all.law_count(); k += size) all.law(k);
-  }
-
-  /// Makes the team's chunks known to the others, and theirs to the one that is done last.
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION bool done_last(const Member& team) const {
-    if (teams == 1) return true;
-    int last = 0;
-    if (team.team_rank() == 0) {
-      Kokkos::memory_fence();
-      last = Kokkos::atomic_fetch_add(&all.sets.sets.teams_done(0), 1) == teams - 1 ? 1 : 0;
-      if (last != 0) all.sets.sets.teams_done(0) = 0;
-    }
-    team.team_broadcast(last, 0);
-    if (last != 0) Kokkos::memory_fence();
-    return last != 0;
-  }
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const { all.law(k); }
 };
 
 }  // namespace railwave

@@ -21,7 +21,6 @@ struct NodeSets {
   Array<double*> weight;
   Array<int*> first_chunk;  ///< moving + 1
   Array<SetChunk*> chunks;
-  Array<int*> teams_done;           ///< one, of SetLoadTeams; zero between launches
   Array<double* [values]> partial;  ///< by chunk
   Array<double* [values]> sums;  ///< by set: weighted r (3, m), velocity (3, m/s), r r: xx, yy, zz, yz, zx, xy (m2); r
                                  ///< is the position less that of the set's first node

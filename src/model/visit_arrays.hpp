@@ -141,7 +141,6 @@ void visit_arrays(const Named<Visitor>& visit, NodeSets& sets) {
   visit(ArrayUse::constant, "weight", sets.weight);
   visit(ArrayUse::constant, "first_chunk", sets.first_chunk);
   visit(ArrayUse::constant, "chunks", sets.chunks);
-  visit(ArrayUse::scratch, "teams_done", sets.teams_done);
   visit(ArrayUse::scratch, "partial", sets.partial);
   visit(ArrayUse::scratch, "sums", sets.sums);
 }

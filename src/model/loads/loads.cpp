@@ -200,7 +200,6 @@ void build_sets(const Collector& collector, int moving, LoadModel& loads) {
   sets.weight = to_device("weight in set", weight);
   sets.first_chunk = to_device("first chunk of set", first_chunk);
   sets.chunks = to_device("chunks of sets", chunks);
-  sets.teams_done = Array<int*>("teams done", 1);
   sets.partial = Array<double * [NodeSets::values]>("sums of chunks", chunks.size());
   sets.sums = Array<double * [NodeSets::values]>("sums of sets", moving);
 }

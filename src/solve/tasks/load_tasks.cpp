@@ -26,9 +26,9 @@ using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, A
 /// Sums over sets, and what follows from them.
 void launch_set_loads(const ExecutionSpace& space, const SetLoads& all) {
   if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(space, 1, threads_of_loads), all);
-  constexpr int most_teams = 64;
-  const int teams = std::min(most_teams, (all.chunk_count() + threads_of_loads - 1) / threads_of_loads);
-  Kokkos::parallel_for("set_loads", LoadTeam(space, teams, threads_of_loads), SetLoadTeams{all, teams});
+  Kokkos::parallel_for("set_chunks", SpreadRange(space, 0, all.chunk_count()), SetChunkSums{all.sets});
+  Kokkos::parallel_for("set_sums", SpreadRange(space, 0, all.sum_count()), SetSums{all.sets});
+  Kokkos::parallel_for("set_laws", SpreadRange(space, 0, all.law_count()), SetLaws{all});
 }
 
 /// Connectors and torques.

@@ -149,6 +149,17 @@ TEST_CASE("a sprung mass sinks until its spring carries it; one that nothing hol
                                              Catch::Matchers::ContainsSubstring("1e+04 N act on it along"));
 }
 
+TEST_CASE("a block that its load crushes is refused, for no state of finite forces is left to run from", "[static]") {
+  scene::Scene scene = settling(block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1e-5), 1e-3);
+  scene.settle.method = scene::SettleMethod::relaxation;
+  scene.materials[0].yield_stress = 1e8;
+  hold(scene, "block.z_min", {true, true, true});
+  add_pressure(scene, "block.z_max", 1e9);
+  Model model;
+  build_model(scene, model);
+  REQUIRE_THROWS_WITH(settle_whole(model), Catch::Matchers::ContainsSubstring("[settle]: forces are no longer finite"));
+}
+
 TEST_CASE("a block that hangs on nothing does not settle, and is named", "[static]") {
   TwoBlocks blocks;
   scene::Scene scene = settling(blocks.scene(1e-3), 1e-6);

@@ -237,6 +237,12 @@ std::vector<SettlingTasks> describe_settling(Model& model) {
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others) {
   const auto began = std::chrono::steady_clock::now();
   SettleReport report = settle_by(model.scene.settle.method, model, go_on, others);
+  if (!std::isfinite(report.unbalance))
+    throw InputError(fmt::format(
+        "{}: [settle]: forces are no longer finite after {} evaluations: the scene has no equilibrium, or dynamic "
+        "relaxation flies past it; hold what can drift away, lower loads that are more than the bodies bear, or leave "
+        "[settle] out{}{}",
+        model.scene.path, report.steps, report.adrift.empty() ? "" : "; Newton's method before it: ", report.adrift));
   // The run starts from what a file of the state would hold, and from nothing else.
   restore_static_state(model, save_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -250,7 +256,9 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
   std::string begun_from;
   if (states != nullptr) {
     SettledStates::Found found = states->find(model);
-    if (found.state && !found.state->settled && !model.scene.settle.keep_unsettled) found.state.reset();
+    if (found.state && !found.state->settled &&
+        !(model.scene.settle.keep_unsettled && std::isfinite(found.state->unbalance)))
+      found.state.reset();
     if (!found.trouble.empty()) remarks.push_back(found.file + ": " + found.trouble + "; the scene settles anew");
     if (found.state && !restore_static_state(model, *found.state))
       remarks.push_back(found.file + ": is of another model; the scene settles anew");

@@ -30,6 +30,7 @@ struct SettleReport {
 /// energy) and a little local damping: the state from which the run starts. Bodies that will rotate (initial_motion)
 /// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
 /// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
+/// @throws InputError where a body that nothing holds or that its loads crush leaves no finite forces
 /// @param go_on called every few steps with how far it is; false ends the relaxation early
 /// @param others ranks that wait for rank 0's orders and take part; null: there are none
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others = nullptr);

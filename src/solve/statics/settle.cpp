@@ -118,6 +118,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;
+  AppliedForces applied;
   for (report.steps = 0; report.steps < most_steps; ++report.steps) {
     model.step = report.steps;
     run_tasks(plan.forces, instant, model.step);
@@ -141,6 +142,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
       sum[0] += beams.unbalanced;
       sum[1] += beams.applied;
     }
+    sum[1] = applied(sum[1]);
     report.unbalance = sum[1] > 0 ? sum[0] / sum[1] : sum[0];
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;

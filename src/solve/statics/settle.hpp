@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,6 +24,19 @@ struct SettleReport {
   std::string taken_from;            ///< file that the settled state comes from; nothing was computed then
   std::string begun_from;            ///< file of an unfinished state from which it went on
   std::vector<std::string> remarks;  ///< on the method, and on the files of settled states
+};
+
+/// What unbalanced forces are held against, N: all that is applied now. Where that cancels node by node, as a load does
+/// that a connector takes up on the same nodes, a ten-thousandth of what was applied where settling began.
+class AppliedForces {
+ public:
+  double operator()(double now) {
+    if (first_ < 0) first_ = now;
+    return std::max(now, 1e-4 * first_);
+  }
+
+ private:
+  double first_ = -1;
 };
 
 /// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.cpp), and where that finds none or

@@ -106,7 +106,10 @@ Section part_section() {
   section.keys = {
       key("mesh", &Part::mesh, "the part's mesh").names(mesh).needed(),
       key("material", &Part::material, "the part's material").names(material).needed(),
-      key("element_set", &Part::element_set, "element set of the mesh that is this part").otherwise("the whole mesh"),
+      key("element_set", &Part::element_set,
+          "element set of the mesh that is this part; parts of one mesh are bodies of their own, which [ties.NAME] "
+          "join where they meet")
+          .otherwise("the whole mesh"),
       key("position", &Part::position, "where the mesh's own origin is put").in("m"),
       key("mirror", &Part::mirror, "the mesh is mirrored at its plane y = 0; its sets keep their names"),
       key("angle_of_attack", &Part::angle_of_attack,

@@ -135,7 +135,8 @@ Section part_section() {
           "frequency w is damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - "
           "beta")
           .in("s")
-          .within(at_least(0)),
+          .within(at_least(0))
+          .mostly(between(0, 0.01)),
       key("linear_bulk_viscosity", &Part::linear_bulk_viscosity,
           "pressure Q2 rho c l |d| where volume shrinks at the rate d, l the cube root of an element's volume; 0.06 is "
           "usual for shocks")

@@ -165,6 +165,22 @@ TEST_CASE("a load that springs take up on the same nodes leaves nothing applied,
   }
 }
 
+TEST_CASE("a scene of whose loads none has begun is settled as it lies", "[static]") {
+  for (const auto method : {scene::SettleMethod::newton, scene::SettleMethod::relaxation}) {
+    // Away from the origin, where places are rounded.
+    scene::Scene scene = settling(block_scene({0.1, 0.1, 0.1}, {3, 3, 3}, 1e-6), 1e-3);
+    scene.settle.method = method;
+    scene.parts[0].position = {0.37, 1.23, 0.41};
+    add_spring(scene, "ground", "block.z_min", {1e6, 2e6, 3e6});
+    Model model;
+    build_model(scene, model);
+    const SettleReport report = settle_whole(model);
+    INFO(report.steps << " evaluations, unbalance " << report.unbalance);
+    CHECK(report.settled);
+    CHECK(report.steps <= 50);
+  }
+}
+
 TEST_CASE("a block that its load crushes is refused, for no state of finite forces is left to run from", "[static]") {
   scene::Scene scene = settling(block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1e-5), 1e-3);
   scene.settle.method = scene::SettleMethod::relaxation;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "case/error.hpp"
 #include "kernels/statics/relaxation.hpp"
@@ -118,7 +119,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;
-  AppliedForces applied;
+  AppliedForces applied(model);
   for (report.steps = 0; report.steps < most_steps; ++report.steps) {
     model.step = report.steps;
     run_tasks(plan.forces, instant, model.step);
@@ -194,6 +195,18 @@ SettleReport settle_by(scene::SettleMethod method, Model& model, const std::func
 }
 
 }  // namespace
+
+AppliedForces::AppliedForces(const Model& model) {
+  const Assembly& assembly = model.assembly;
+  double farthest = 0, stiffness = 0;
+  for (const Vec3& x : assembly.nodes)
+    for (const double along : x) farthest = std::max(farthest, std::fabs(along));
+  for (const auto& part : assembly.parts)
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      stiffness += model.scene.materials[part.material].dilatational_modulus() * model.element_length[e];
+  constexpr double half_a_unit = 0.5 * std::numeric_limits<double>::epsilon();  // in the last place
+  least_ = half_a_unit * farthest * stiffness / model.scene.settle.tolerance;
+}
 
 std::vector<Vec3> centrifugal_field(const AssembledScene& assembled, const Array<double* [3]>& reference,
                                     const std::shared_ptr<BeamModel>& beams) {

@@ -27,16 +27,18 @@ struct SettleReport {
 };
 
 /// What unbalanced forces are held against, N: all that is applied now. Where that cancels node by node, as a load does
-/// that a connector takes up on the same nodes, a ten-thousandth of what was applied where settling began.
+/// that a connector takes up on the same nodes, a ten-thousandth of what was applied where settling began; where next
+/// to nothing is applied, so much that what the rounding of places leaves of the elements' forces counts as settled.
 class AppliedForces {
  public:
+  explicit AppliedForces(const Model& model);
   double operator()(double now) {
     if (first_ < 0) first_ = now;
-    return std::max(now, 1e-4 * first_);
+    return std::max({now, 1e-4 * first_, least_});
   }
 
  private:
-  double first_ = -1;
+  double first_ = -1, least_ = 0;
 };
 
 /// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.cpp), and where that finds none or

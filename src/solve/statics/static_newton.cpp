@@ -291,7 +291,7 @@ class Newton {
   StaticCoarse coarse_;
   double shift_ = least_shift, floor_ = least_shift;
   StaticResidual residual_;
-  AppliedForces applied_;
+  AppliedForces applied_{model_};
   Array<double* [3]> origin_;
   NodeVector step_, left_, z_, way_, image_;
   Array<double* [4]> turned_from_;

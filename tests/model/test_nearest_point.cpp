@@ -1,6 +1,9 @@
 #include <catch2/catch_test_macros.hpp>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "model/sets/point_search.hpp"
 

@@ -335,7 +335,8 @@ struct ContactMultiplier {
     const int s = r.slave;
     const RowNodes nodes = nodes_of(r);
     const Vector3 pressed = row(contact.normal_force, s), rubbed = row(contact.tangential_force, s);
-    const Vector3 normal = r.normal, moved = r.moved;
+    const Vector3 normal = r.normal;
+    Vector3 moved = r.moved;
     const double gap = r.gap, gap_before = contact.gap(s);
     Vector3 force = r.force;
     double pressing = r.pressing;
@@ -358,6 +359,10 @@ struct ContactMultiplier {
     }
     if constexpr (Friction) {
       const Vector3 tangential = force - pressing * normal;
+      // A node that begins to touch has come this way along the surface, against half of the force that stops it.
+      if (pressing > 0 && contact.status(s) == status_apart)
+        moved = first_touch.last.template relative_motion<Normals>(
+            search, r.node, contact.tracked(s), SegmentPlace{contact.place(s, 0), contact.place(s, 1)});
       contact.friction_energy(s) -= 0.5 * dot(rubbed + tangential, moved);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
     }

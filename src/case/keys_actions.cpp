@@ -16,7 +16,9 @@ Section connector_section() {
       key("to", &Connector::to, "the other end").names(node_set | point | ground).needed(),
       key("stiffness", &Connector::stiffness, "spring stiffness along each of the axes").in("N/m").within(at_least(0)),
       key("damping", &Connector::damping, "dashpot coefficient along each of the axes").in("N s/m").within(at_least(0)),
-      key("preload", &Connector::preload, "force on `to` when nothing has moved yet, along the axes").in("N"),
+      key("preload", &Connector::preload,
+          "force on `to` when nothing has moved yet, along the scene's x, y, z whatever `axes`")
+          .in("N"),
       key("axes", &Connector::axes, "the three directions, each a unit vector"),
       key("spread", &Connector::spread,
           "cells along the first and the second of the axes, over the area in which the ends face each other along "

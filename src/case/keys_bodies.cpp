@@ -106,7 +106,10 @@ Section part_section() {
   section.keys = {
       key("mesh", &Part::mesh, "the part's mesh").names(mesh).needed(),
       key("material", &Part::material, "the part's material").names(material).needed(),
-      key("element_set", &Part::element_set, "element set of the mesh that is this part").otherwise("the whole mesh"),
+      key("element_set", &Part::element_set,
+          "element set of the mesh that is this part; parts of one mesh are bodies of their own, which [ties.NAME] "
+          "join where they meet")
+          .otherwise("the whole mesh"),
       key("position", &Part::position, "where the mesh's own origin is put").in("m"),
       key("mirror", &Part::mirror, "the mesh is mirrored at its plane y = 0; its sets keep their names"),
       key("angle_of_attack", &Part::angle_of_attack,
@@ -132,7 +135,8 @@ Section part_section() {
           "frequency w is damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - "
           "beta")
           .in("s")
-          .within(at_least(0)),
+          .within(at_least(0))
+          .mostly(between(0, 0.01)),
       key("linear_bulk_viscosity", &Part::linear_bulk_viscosity,
           "pressure Q2 rho c l |d| where volume shrinks at the rate d, l the cube root of an element's volume; 0.06 is "
           "usual for shocks")

@@ -95,6 +95,7 @@ Section sleeper_section() {
           "its stiffness_damping; 0 leaves all damping to the connectors, and allows a longer step")
           .in("s")
           .within(between(0, 1))
+          .mostly(between(0, 0.01))
           .otherwise("vertical fastening_damping over fastening_stiffness"),
       key("pad_layers", &Sleeper::pad_layers, "elements through its thickness").within(between(1, 100)),
       key("ballast_stiffness", &Sleeper::ballast_stiffness, "vertical, under the half sleeper in all")
@@ -173,7 +174,8 @@ Section track_section() {
           .otherwise("elastic: E 210 GPa, nu 0.3, 7800 kg/m3"),
       key("rail_stiffness_damping", &Track::rail_stiffness_damping, "the rails' stiffness_damping, see [parts.NAME]")
           .in("s")
-          .within(at_least(0)),
+          .within(at_least(0))
+          .mostly(between(0, 0.01)),
       key("position", &Track::position, "where the track's own origin is put: z = 0 is the middle of the rail's foot")
           .in("m"),
       key("mirror", &Track::mirror,

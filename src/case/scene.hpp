@@ -111,7 +111,7 @@ struct Connector : Place {
   std::string to;
   Vec3 stiffness{0, 0, 0};  ///< N/m along the axes
   Vec3 damping{0, 0, 0};    ///< N s/m
-  Vec3 preload{0, 0, 0};    ///< force on `to` at zero relative displacement, N
+  Vec3 preload{0, 0, 0};    ///< force on `to` at zero relative displacement, N, along the global axes
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   std::array<int, 2> spread{
       0, 0};                ///< cells along axes[0] and axes[1] of an area shared by two facing surfaces; 0: not spread

@@ -64,6 +64,12 @@ bool Cards::more() {
   return left();
 }
 
+bool Cards::any() const {
+  for (std::size_t i = at_; i < keyword_.lines.size(); ++i)
+    if (!trim(keyword_.lines[i].text).empty()) return true;
+  return false;
+}
+
 const DynaLine& Cards::line() {
   if (!left())
     reader_.fail(keyword_.place, fmt::format("*{} ends after {} of its cards; complete it, the file may have been cut "
@@ -170,11 +176,23 @@ void DeckReader::take(const DynaKeyword& keyword) {
     }
   if (handler != nullptr) {
     report.add_block(source, keyword.lines.empty() ? keyword.place.position : keyword.lines.back().place.position);
-    return handler(call);
+    handler(call);
+    return refuse_cards_left(call);
   }
   std::string why;
   if (is_harmless(call.name, why)) return report.add(Fate::dropped, source, why);
   report.refuse(source, keyword.name, unknown(keyword.name));
+}
+
+void DeckReader::refuse_cards_left(Call& call) {
+  if (!call.cards.more()) return;
+  // Of these the further cards are optional and only say how LS-DYNA computes or writes, or the whole is refused.
+  for (const char* beginning : {"CONTACT_", "CONTROL_", "DATABASE_", "MAT_", "SECTION_", "TITLE", "KEYWORD"})
+    if (begins_with(call.name, beginning)) return;
+  const DynaCard card = call.cards.take();
+  report.refuse_always(call.cards.source(card),
+                       "this card is one more than the keyword has, so that those before may not be what they are "
+                       "meant as (an empty line counts as a card); give each thing its own keyword");
 }
 
 void DeckReader::transform_nodes() {

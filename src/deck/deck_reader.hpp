@@ -16,6 +16,8 @@ void read_deck(const std::string& path, Deck& deck, Report& report);
 /// Makes a held hexahedron of each rigid wall, and a contact with it.
 void make_walls(Deck& deck, Report& report);
 
+struct Call;
+
 /// What readers of keywords work on, and with.
 class DeckReader {
  public:
@@ -40,6 +42,7 @@ class DeckReader {
 
  private:
   void take(const DynaKeyword& keyword);
+  void refuse_cards_left(Call& call);
   void include_transformed(const DynaKeyword& keyword);
   void transform_nodes();
   void refuse_degenerate();
@@ -59,6 +62,9 @@ class Cards {
 
   /// Passes over empty lines; whether there is another after them.
   bool more();
+
+  /// Whether a line is left that is not empty, without passing over those before it: an empty line may be a card.
+  bool any() const;
 
   /// Throws InputError when there is none left.
   DynaCard take();
@@ -85,6 +91,9 @@ struct Call {
   Cards cards;
   std::string name;
   bool titled;
+
+  /// Whether there is another thing of this keyword, which begins with its title if these have one; that may be empty.
+  bool more() { return titled ? cards.any() : cards.more(); }
 
   Number number(const DynaCard& card, int field, const char* what, DynaScope::Kind kind) const {
     return reader.number(card, field, what, kind, cards.keyword());

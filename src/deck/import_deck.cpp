@@ -107,6 +107,8 @@ void set_damping(const Deck& deck, std::map<Number, Settings>& settings, Report&
       if (meant && damping.by_mass) of_part.mass_damping = value;
       if (meant && !damping.by_mass) of_part.stiffness_damping = -value;
     }
+    if (const auto curve = deck.curves.find(damping.curve); curve != deck.curves.end())
+      report.add(Fate::taken, curve->second.source, "it is constant: damping of the parts");
     report.add(Fate::taken, damping.source,
                damping.by_mass ? "mass_damping of the parts" : "stiffness_damping of the parts");
   }

@@ -16,7 +16,7 @@ Nodes nodes_of(const Call& call, const DynaCard& card, int field) {
 }
 
 void read_spc(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Constraint constraint;
@@ -39,7 +39,7 @@ void refuse_times(Call& call, const Source& source, double birth, double death) 
 }
 
 void read_motion(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Motion motion;
@@ -66,7 +66,7 @@ void read_non_reflecting(Call& call) {
 }
 
 void read_wall(Call& call) {
-  while (call.cards.more()) {
+  while (call.cards.any()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take(), plane = call.cards.take();
     Wall wall;
@@ -162,7 +162,8 @@ void read_global_damping(Call& call) {
   Damping damping;
   damping.source = call.cards.source(card);
   damping.curve = call.number(card, 0, "LCID", Kind::curve);
-  damping.value = card.real(1, "VALDMP");
+  // A curve stands in place of VALDMP.
+  damping.value = damping.curve != 0 ? 1 : card.real(1, "VALDMP");
   // All zero: in all directions.
   bool some = false, all = true;
   for (int i = 2; i < 8; ++i) {

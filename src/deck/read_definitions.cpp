@@ -17,6 +17,10 @@ void read_curve(Call& call) {
   const DynaCard card = call.cards.take();
   curve.source = call.cards.source(card);
   const Number number = call.number(card, 0, "LCID", Kind::curve);
+  if (card.whole(1, "SIDR") == 1)
+    call.reader.report.refuse(curve.source, "DEFINE_CURVE.SIDR",
+                              "SIDR 1 has the curve act in dynamic relaxation alone, which isn't read; leave the curve "
+                              "out, or set SIDR to 0");
   const double along = card.real(2, "SFA", 1), up = card.real(3, "SFO", 1);
   const double shift = card.real(4, "OFFA"), lift = card.real(5, "OFFO");
   while (call.cards.more()) {
@@ -51,47 +55,53 @@ bool make_axes(const Vec3& x, const Vec3& in_plane, std::array<Vec3, 3>& axes) {
 void keep_axes(Call& call, Number number, const Axes& axes) { call.reader.deck.axes[number] = axes; }
 
 void read_coordinate_system(Call& call) {
-  if (call.titled) call.cards.title();
-  const DynaCard first = call.cards.take(), second = call.cards.take();
-  const auto at = [](const DynaCard& card, int i) {
-    return Vec3{card.real(i, "X"), card.real(i + 1, "Y"), card.real(i + 2, "Z")};
-  };
-  Axes axes;
-  axes.source = call.cards.source(first);
-  const Vec3 origin = at(first, 1), on_x = at(first, 4), in_plane = at(second, 0);
-  if (first.whole(7, "CIDL") != 0)
-    call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_SYSTEM.CIDL",
-                              "systems within another (CIDL) aren't read");
-  if (!make_axes(difference(on_x, origin), difference(in_plane, origin), axes.axes))
-    call.reader.fail(first.place(), "the three points lie on a line; give three that make a plane");
-  keep_axes(call, call.number(first, 0, "CID", Kind::define), axes);
+  while (call.more()) {
+    if (call.titled) call.cards.title();
+    const DynaCard first = call.cards.take(), second = call.cards.take();
+    const auto at = [](const DynaCard& card, int i) {
+      return Vec3{card.real(i, "X"), card.real(i + 1, "Y"), card.real(i + 2, "Z")};
+    };
+    Axes axes;
+    axes.source = call.cards.source(first);
+    const Vec3 origin = at(first, 1), on_x = at(first, 4), in_plane = at(second, 0);
+    if (first.whole(7, "CIDL") != 0)
+      call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_SYSTEM.CIDL",
+                                "systems within another (CIDL) aren't read");
+    if (!make_axes(difference(on_x, origin), difference(in_plane, origin), axes.axes))
+      call.reader.fail(first.place(), "the three points lie on a line; give three that make a plane");
+    keep_axes(call, call.number(first, 0, "CID", Kind::define), axes);
+  }
 }
 
 void read_coordinate_vector(Call& call) {
-  if (call.titled) call.cards.title();
-  const DynaCard card = call.cards.take();
-  Axes axes;
-  axes.source = call.cards.source(card);
-  const Vec3 x{card.real(1, "XX"), card.real(2, "YX"), card.real(3, "ZX")};
-  const Vec3 in_plane{card.real(4, "XV"), card.real(5, "YV"), card.real(6, "ZV")};
-  if (!make_axes(x, in_plane, axes.axes))
-    call.reader.fail(card.place(), "the two vectors are parallel or zero; give two that make a plane");
-  keep_axes(call, call.number(card, 0, "CID", Kind::define), axes);
+  while (call.more()) {
+    if (call.titled) call.cards.title();
+    const DynaCard card = call.cards.take();
+    Axes axes;
+    axes.source = call.cards.source(card);
+    const Vec3 x{card.real(1, "XX"), card.real(2, "YX"), card.real(3, "ZX")};
+    const Vec3 in_plane{card.real(4, "XV"), card.real(5, "YV"), card.real(6, "ZV")};
+    if (!make_axes(x, in_plane, axes.axes))
+      call.reader.fail(card.place(), "the two vectors are parallel or zero; give two that make a plane");
+    keep_axes(call, call.number(card, 0, "CID", Kind::define), axes);
+  }
 }
 
 void read_coordinate_nodes(Call& call) {
-  if (call.titled) call.cards.title();
-  const DynaCard card = call.cards.take();
-  Axes axes;
-  axes.source = call.cards.source(card);
-  axes.nodes = {call.number(card, 1, "N1", Kind::node), call.number(card, 2, "N2", Kind::node),
-                call.number(card, 3, "N3", Kind::node)};
-  if (card.whole(4, "FLAG") == 1)
-    call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_NODES.FLAG",
-                              "FLAG 1, axes that go with the nodes, aren't read");
-  const std::string direction = lower_case(card.text(5));
-  axes.direction = direction == "y" ? 1 : direction == "z" ? 2 : 0;
-  keep_axes(call, call.number(card, 0, "CID", Kind::define), axes);
+  while (call.more()) {
+    if (call.titled) call.cards.title();
+    const DynaCard card = call.cards.take();
+    Axes axes;
+    axes.source = call.cards.source(card);
+    axes.nodes = {call.number(card, 1, "N1", Kind::node), call.number(card, 2, "N2", Kind::node),
+                  call.number(card, 3, "N3", Kind::node)};
+    if (card.whole(4, "FLAG") == 1)
+      call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_NODES.FLAG",
+                                "FLAG 1, axes that go with the nodes, aren't read");
+    const std::string direction = lower_case(card.text(5));
+    axes.direction = direction == "y" ? 1 : direction == "z" ? 2 : 0;
+    keep_axes(call, call.number(card, 0, "CID", Kind::define), axes);
+  }
 }
 
 void read_vector(Call& call) {
@@ -189,7 +199,7 @@ void read_transformation(Call& call) {
 
 /// Boxes along the axes: number, then lowest and highest x, y, z in turn.
 void read_box(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
     Box box;

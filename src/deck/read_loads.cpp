@@ -25,7 +25,7 @@ void read_nodal(Call& call) {
 }
 
 void read_pressure(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Pressure pressure;
@@ -141,6 +141,11 @@ void read_contact(Call& call) {
                                   "a thickness of contact (SST, MST) isn't read: solids "
                                   "touch where their faces do");
   }
+  // Optional cards A and B: of them the thickness of solids alone is more than how LS-DYNA computes.
+  if (call.cards.left()) call.cards.take();
+  if (call.cards.left() && call.cards.take().real(6, "SLDTHK") > 0)
+    call.reader.report.refuse(contact.source, "CONTACT.SLDTHK",
+                              "a thickness of solids (SLDTHK) isn't read: they touch where their faces do");
   call.reader.deck.contacts.push_back(contact);
 }
 

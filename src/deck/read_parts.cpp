@@ -41,7 +41,7 @@ void read_part(Call& call) {
 /// Each section with source, number and kind; fill(section, card) does the rest.
 template <class Fill>
 void read_sections(Call& call, Section::Kind kind, const Fill& fill) {
-  while (call.cards.more()) {
+  while (call.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Section section;
@@ -137,7 +137,7 @@ void add_refusal(Material& material, const std::string& key, const std::string& 
 /// Each material with density and elasticity; fill(material, card) does the rest.
 template <class Fill>
 void read_solid_materials(Call& call, Material::Kind kind, const Fill& fill) {
-  while (call.cards.more()) {
+  while (call.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
     Material material = begin_material(call, title, card);
@@ -206,7 +206,7 @@ void read_piecewise(Call& call) {
 
 template <Material::Kind kind>
 void read_connector_law(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
     Material material = begin_material(call, title, card);
@@ -217,7 +217,7 @@ void read_connector_law(Call& call) {
 }
 
 void read_hourglass(Call& call) {
-  while (call.cards.more()) {
+  while (call.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Hourglass hourglass;

@@ -29,16 +29,19 @@ class NodalLoads {
  public:
   explicit NodalLoads(Conversion& conversion) : conversion_(conversion), mass_(conversion.node_masses()) {}
 
-  /// All loads; those of single nodes that are alike go together.
+  /// All loads; those of single nodes that are alike go together, and a node that is named twice has twice the force.
   void write() {
-    std::map<std::tuple<Number, Number, Number, double>, std::pair<const NodalLoad*, std::vector<int>>> single;
+    using Kind = std::tuple<Number, Number, Number, double, int>;
+    std::map<Kind, std::pair<const NodalLoad*, std::vector<int>>> single;
+    std::map<std::pair<Kind, int>, int> times;
     for (const NodalLoad& load : conversion_.deck.nodal_loads) {
       const auto nodes = conversion_.members(load.nodes, load.source);
       if (load.nodes.is_set) {
         write(load, nodes);
         continue;
       }
-      auto& alike = single[{load.direction, load.curve, load.axes, load.scale}];
+      const Kind kind{load.direction, load.curve, load.axes, load.scale, 0};
+      auto& alike = single[{load.direction, load.curve, load.axes, load.scale, times[{kind, nodes.front()}]++}];
       if (alike.first == nullptr) alike.first = &load;
       alike.second.push_back(nodes.front());
     }
@@ -117,17 +120,25 @@ std::map<std::pair<int, int>, std::vector<Face>> faces_of(const Conversion& conv
   return faces;
 }
 
-/// Pressures of single segments that follow one curve go together.
+/// Pressures of single segments that follow one curve go together; a segment that is named twice has twice the
+/// pressure.
 std::vector<Pressure> gathered(const std::vector<Pressure>& pressures) {
-  std::map<std::pair<Number, double>, std::size_t> single;
+  std::map<std::tuple<Number, double, int>, std::size_t> single;
+  std::map<std::tuple<Number, double, Segment>, int> times;
   std::vector<Pressure> all;
   for (const Pressure& one : pressures) {
-    const auto [entry, is_new] = one.set == 0 ? single.emplace(std::make_pair(one.curve, one.scale), all.size())
-                                              : std::make_pair(single.end(), true);
-    if (is_new)
-      all.push_back(one);
-    else
-      all[entry->second].segments.insert(all[entry->second].segments.end(), one.segments.begin(), one.segments.end());
+    if (one.set != 0) all.push_back(one);
+    for (const Segment& segment : one.segments) {
+      Segment nodes = segment;
+      std::sort(nodes.begin(), nodes.end());
+      const int before = times[{one.curve, one.scale, nodes}]++;
+      const auto [entry, is_new] = single.emplace(std::make_tuple(one.curve, one.scale, before), all.size());
+      if (is_new) {
+        all.push_back(one);
+        all.back().segments.clear();
+      }
+      all[entry->second].segments.push_back(segment);
+    }
   }
   return all;
 }

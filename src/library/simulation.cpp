@@ -4,6 +4,7 @@
 
 #include <Kokkos_Core.hpp>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "case/error.hpp"
@@ -113,6 +114,8 @@ bool Simulation::advance() {
 std::string Simulation::end() const { return run_->end; }
 
 void Simulation::drive(const std::string& curve, double value) {
+  if (!std::isfinite(value))
+    throw InputError(fmt::format("the curve {} is to be driven to {}; a finite number is wanted", curve, value));
   std::vector<std::string> names;
   for (scene::Curve& one : run_->model.scene.curves) {
     if (one.type == scene::CurveType::table) names.push_back(one.name);

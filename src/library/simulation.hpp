@@ -50,6 +50,7 @@ class Simulation {
 
   /// Has a curve of the case (type = "table") lead from its present value to this one over the next window, and stay
   /// there. Loads and prescribed motions follow their curves: this is how a force or a motion is set from outside.
+  /// @throws InputError for an unknown curve, or a value that is not finite
   void drive(const std::string& curve, double value);
 
   /// A quantity of the present instant by its name in the results' group /history with dots, such as

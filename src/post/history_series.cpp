@@ -170,10 +170,13 @@ HistorySeries read(const ResultsReader& results, const HistoryRequest& request) 
       times.empty() ? "none at all" : fmt::format("they go from {:.6g} s to {:.6g} s", times.front(), times.back());
   const auto first = std::lower_bound(times.begin(), times.end(), request.from) - times.begin();
   const auto last = std::upper_bound(times.begin(), times.end(), request.to) - times.begin();
-  if (last - first < static_cast<std::ptrdiff_t>(fewest_samples))
-    throw InputError(fmt::format("{} has {} history samples from {} s to {} s, of which {} are wanted at least; {}",
-                                 results.path(), std::max<std::ptrdiff_t>(0, last - first), request.from, request.to,
-                                 fewest_samples, whole));
+  if (last - first < static_cast<std::ptrdiff_t>(fewest_samples)) {
+    std::string asked;
+    if (std::isfinite(request.from)) asked += fmt::format(" from {} s", request.from);
+    if (std::isfinite(request.to)) asked += fmt::format(" to {} s", request.to);
+    throw InputError(fmt::format("{} has {} history samples{}, of which {} are wanted at least; {}", results.path(),
+                                 std::max<std::ptrdiff_t>(0, last - first), asked, fewest_samples, whole));
+  }
   times = {times.begin() + first, times.begin() + last};
   for (HistoryChannel& channel : series.channels) {
     channel.values = {channel.values.begin() + first, channel.values.begin() + last};

@@ -5,6 +5,7 @@
 #include "case/complaints.hpp"
 #include "case/document.hpp"
 #include "case/error.hpp"
+#include "mesh/files/text_file.hpp"
 
 namespace railwave::sweep {
 namespace {
@@ -40,6 +41,13 @@ std::vector<std::string> cells_of(const std::string& path, int line, const std::
   return cells;
 }
 
+void refuse_other_separators(const std::string& path, const CsvRows::value_type& heading) {
+  for (const char* other : {";", "\t"})
+    if (heading.cells.size() == 1 && heading.cells[0].find(other) != std::string::npos)
+      throw InputError(fmt::format("{}:{}: the heading is one key, {}: columns are parted by commas", path,
+                                   heading.line, for_message(heading.cells[0])));
+}
+
 }  // namespace
 
 CsvRows read_csv(const std::string& path) {
@@ -54,6 +62,7 @@ CsvRows read_csv(const std::string& path) {
     const std::string content = trimmed(one);
     if (content.empty() || content[0] == '#') continue;
     rows.push_back({line, cells_of(path, line, one)});
+    if (rows.size() == 1) refuse_other_separators(path, rows[0]);
     if (rows.back().cells.size() != rows.front().cells.size())
       throw InputError(
           fmt::format("{}:{}: has {} cells, the heading has {}; a cell with commas, such as a list, stands "

@@ -73,6 +73,9 @@ TEST_CASE("a number in another unit is refused or warned of, with the number tha
              ContainsSubstring("m/s are expected: 27.78, if it is in km/h"));
   CHECK_THAT(warning_of("materials.steel.poissons_ratio=0.499"),
              ContainsSubstring("poissons_ratio: is 0.499, which is unusual"));
+  // A ratio of critical damping, say, with which a step is some picoseconds long.
+  CHECK_THAT(warning_of("parts.wheel.stiffness_damping=0.03"),
+             ContainsSubstring("stiffness_damping: is 0.03 s, which is unusual: mostly it is between 0 and 0.01 s"));
 }
 
 TEST_CASE("a long rail and elements of a metre or a nanometre are warned of", "[case]") {

@@ -2,6 +2,7 @@
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 
+#include <map>
 #include <string>
 
 #include "case/error.hpp"
@@ -192,6 +193,49 @@ TEST_CASE("a pressure on segments that look inwards pulls") {
   CHECK(in.loads[0].pressure == -2);
 }
 
+TEST_CASE("a node or segment that is loaded twice has both loads") {
+  Decks decks;
+  const std::string curve = "*DEFINE_CURVE\n1\n0,1\n1,2\n";
+  // 4 N and 2 N of nodes 5 and 6, by loads of 2 N each.
+  const auto import = decks.take(cube + curve + "*LOAD_NODE_POINT\n5,3,1,2.0\n5,3,1,2.0\n6,3,1,2.0\n");
+  const auto forces = decks.scene_of(import).loads;
+  REQUIRE(forces.size() == 2);
+  const Mesh mesh = decks.mesh_of(import);
+  std::map<int, double> at_node;
+  for (const auto& load : forces) {
+    const auto& nodes = mesh.node_sets.at(load.target.substr(std::string("body.").size()));
+    for (const int n : nodes) at_node[n] += load.force[2] / nodes.size();
+  }
+  CHECK(at_node == std::map<int, double>{{4, 4}, {5, 2}});
+  double pressure = 0;
+  const auto loads = decks.scene_of(decks.take(cube + curve + "*LOAD_SEGMENT\n1,2,0,5,6,7,8\n1,2,0,6,7,8,5\n")).loads;
+  for (const auto& load : loads) pressure += load.pressure;
+  CHECK(pressure == 4);
+}
+
+TEST_CASE("a curve of DAMPING_GLOBAL stands in place of its constant") {
+  Decks decks;
+  const auto damped = [&](const std::string& card) {
+    return decks.scene_of(decks.take(cube + "*DAMPING_GLOBAL\n" + card + "*DEFINE_CURVE\n1\n0,30\n1,30\n"))
+        .parts[0]
+        .mass_damping;
+  };
+  CHECK(damped("1\n") == 30);
+  CHECK(damped("1,5\n") == 30);
+  CHECK(damped("0,5\n") == 5);
+}
+
+TEST_CASE("an empty line is a card: a title, a wall for all nodes; cards that nothing reads are refused") {
+  Decks decks;
+  const auto scene = decks.scene_of(
+      decks.take(cube + "*SECTION_SOLID_TITLE\n\n2,1\nsecond\n3,1\n*RIGIDWALL_PLANAR\n\n0,0,-.1,0,0,1,.3\n"));
+  REQUIRE(scene.contacts.size() == 1);
+  CHECK(scene.contacts[0].friction == 0.3);
+  const std::string systems = "*DEFINE_COORDINATE_VECTOR\n4,0,1,0,-1,0,0\n5,0,0,1,0,1,0\n";
+  const auto turned = decks.scene_of(decks.take(cube + systems + "*INITIAL_VELOCITY\n,,,,5\n3,0,0\n"));
+  CHECK(turned.initial_motions[0].velocity[2] == 3);
+}
+
 TEST_CASE("an initial velocity along axes of its own is turned") {
   Decks decks;
   const std::string axes = "*DEFINE_COORDINATE_SYSTEM\n4,0,0,0,0,1,0\n-1,0,0\n";  // x' along y, y' along -x
@@ -248,6 +292,8 @@ TEST_CASE("what would change the result is refused with its line, and --drop lea
       Row{"*CONTROL_IMPLICIT_GENERAL\n1,.1\n", "implicitly", "CONTROL_IMPLICIT_GENERAL"},
       Row{"*CONTACT_ERODING_SURFACE_TO_SURFACE\n1,2,3,3\n", "contacts of this kind", "CONTACT_ERODING*"},
       Row{"*ELEMENT_MASS\n1,1,0.5\n", "no point masses", "ELEMENT_MASS"},
+      Row{"*DEFINE_CURVE\n1,1\n0,1\n1,1\n", "dynamic relaxation alone", "DEFINE_CURVE.SIDR"},
+      Row{"*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0\n\n\n\n0,0,0,0,0,0,0.1\n", "SLDTHK", "CONTACT_AUTOMATIC*"},
       Row{"*DAMPING_PART_STIFFNESS\n1,0.1\n", "highest frequencies", "DAMPING_PART_STIFFNESS.COEF"},
       Row{"*INITIAL_VELOCITY\n1,2\n0,0,1\n*SET_NODE_LIST\n1\n1,2,3,4,5,6,7,8\n", "NSIDEX", "INITIAL_VELOCITY.NSIDEX"});
   Decks decks;
@@ -282,6 +328,8 @@ TEST_CASE("mistakes are refused with file and line") {
       Row{cube + "*DEFINE_CURVE\n3\n0,0\n-1,0\n", "is below the one before"},
       Row{cube + "*PART\nname\n", "deck.k:22: *PART ends after"},
       Row{cube + "*SECTION_BEAM\n2,1\n", "ends after 1 of its cards"},
+      Row{cube + "*INITIAL_VELOCITY\n0\n\n0,0,-3\n", "deck.k:25: *INITIAL_VELOCITY: this card is one more"},
+      Row{cube + "*DAMPING_GLOBAL\n0,5\n0,6\n", "one more than the keyword has"},
       Row{cube + "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0\n\n", "contact with itself"},
       Row{cube + "*MAT_ELASTIC\n&undefined,1,1\n", "there is no parameter 'undefined'"},
       Row{cube + "*PARAMETER_EXPRESSION\nR a       1/0\n", "no finite number"},

@@ -4,6 +4,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -94,6 +95,7 @@ TEST_CASE("what a simulation does not have is named with what it has") {
   Simulation run(block.path, window);
   CHECK_THROWS_WITH(run.values("set.block.velocity"), ContainsSubstring("known are energy.kinetic"));
   CHECK_THROWS_WITH(run.drive("push", 1), ContainsSubstring("no curve push") && ContainsSubstring("pull"));
+  CHECK_THROWS_WITH(run.drive("pull", std::nan("")), ContainsSubstring("a finite number is wanted"));
   CHECK_THROWS_WITH(run.field("velocity", "block"), ContainsSubstring("displacement of block"));
   CHECK_THROWS_AS(Simulation(block.path, 0.0), InputError);
   CHECK_THROWS_WITH(Simulation(block.path, window, {"time.ende=1"}), ContainsSubstring("ende"));

@@ -1,6 +1,9 @@
 #include <catch2/catch_test_macros.hpp>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "model/sets/point_search.hpp"
 
@@ -30,4 +33,34 @@ TEST_CASE("the tree finds what a search over all points finds") {
     CHECK(tree.find(place, reach) == nearest);
   }
   CHECK(NearestPoint({}).find({0, 0, 0}, 1) == -1);
+}
+
+TEST_CASE("nodes within boxes are found in a body, on a surface and on a line, in steps as large as they are apart") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> between(0, 1);
+  for (const int dimensions : {1, 2, 3}) {
+    std::vector<Vec3> places(2000, Vec3{0.5, 0.5, 0.5});
+    for (Vec3& x : places)
+      for (int i = 0; i < dimensions; ++i) x[i] = between(random);
+    std::vector<int> nodes(places.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    Bounds all = no_bounds;
+    for (const Vec3& x : places) widen(all, x);
+    const NodeGrid grid(places, nodes, all);
+    // Boxes that reach to both sides of the surface: in steps of what rounding leaves between its nodes there, a
+    // million cells each.
+    for (int k = 0; k < 1000; ++k) {
+      Bounds box{};
+      for (int i = 0; i < 3; ++i) {
+        box[0][i] = between(random) - 0.3;
+        box[1][i] = box[0][i] + 0.6;
+      }
+      std::vector<int> found, expected;
+      grid.within(box, [&](int n) { found.push_back(n); });
+      for (const int n : nodes)
+        if (holds(box, places[n])) expected.push_back(n);
+      std::sort(found.begin(), found.end());
+      REQUIRE(found == expected);
+    }
+  }
 }

@@ -58,8 +58,10 @@ def seam(place=(0.03, 0.005, 0.01), length=0.02, depth=0.0045):
 
 
 class Said(unittest.TestCase):
-    def railwave(self, text, *words):
+    def railwave(self, text, *words, mesh=""):
         with tempfile.TemporaryDirectory() as folder:
+            if mesh:
+                (pathlib.Path(folder) / "mesh.inp").write_text(mesh)
             (pathlib.Path(folder) / "case.toml").write_text(text)
             done = subprocess.run(
                 [PROGRAM, words[0], "case.toml", *words[1:]], capture_output=True, text=True, cwd=folder, check=False
@@ -237,6 +239,29 @@ class Said(unittest.TestCase):
         )
         code, out, error, _ = self.railwave(two, "modes", "--up-to", "20000")
         self.assertRegex(out, r"warning: \[parts\.plate\] \(line \d+\) and \[parts\.again\] \(line \d+\) overlap")
+
+    def test_parts_of_one_mesh_that_nothing_joins_are_reported(self):
+        places = [(x, y, z) for z in range(3) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        mesh = "*NODE\n" + "".join(f"{n},{x},{y},{z}\n" for n, (x, y, z) in enumerate(places, 1))
+        mesh += (
+            "*ELEMENT,TYPE=C3D8R,ELSET=LOW\n1,1,2,3,4,5,6,7,8\n*ELEMENT,TYPE=C3D8R,ELSET=UP\n2,5,6,7,8,9,10,11,12\n"
+            "*SURFACE,NAME=TOP,TYPE=ELEMENT\n1,S2\n*SURFACE,NAME=BOTTOM,TYPE=ELEMENT\n2,S1\n"
+        )
+        text = STEEL + '[meshes.two]\ntype = "file"\npath = "mesh.inp"\nscale = 0.01\n[time]\nend = 1e-6\n'
+        for name in ("low", "up"):
+            text += f'[parts.{name}]\nmesh = "two"\nmaterial = "steel"\nelement_set = "{name}"\n'
+        apart = (
+            r"warning: \[parts\.low\] \(line \d+\) and \[parts\.up\] \(line \d+\) are of one mesh and have a face in"
+            r" common, one of their corners at \(0, 0, 0\.01\) m, but nothing joins them"
+        )
+        for more, command, warned in (
+            ("", ["check"], True),
+            ("", ["modes", "--up-to", "1e5"], True),
+            ('[ties.glue]\nslave = "up.bottom"\nmaster = "low.top"\n', ["check"], False),
+        ):
+            code, out, error, _ = self.railwave(text + more, *command, mesh=mesh)
+            self.assertEqual(code, 0, error)
+            (self.assertRegex if warned else self.assertNotRegex)(out, apart)
 
     def test_ends_of_slender_parts_and_layers_are_reported(self):
         end = '[non_reflecting.far]\ntarget = "plate.x_max"\n'

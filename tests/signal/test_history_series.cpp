@@ -140,7 +140,10 @@ TEST_CASE("a last sample that comes early is left out; changed steps are moved t
   request.from = 5.25e-4;
   CHECK(read_history(ResultsReader(path), request).length() == 47);
   request.from = 1;
-  CHECK_THROWS_AS(read_history(ResultsReader(path), request), InputError);
+  CHECK_THROWS_WITH(read_history(ResultsReader(path), request),
+                    ContainsSubstring("has 0 history samples from 1 s, of which 4 are wanted"));
+  write_run(path, even_times(2));
+  CHECK_THAT(complaint(path, "mass.velocity.x"), ContainsSubstring("has 2 history samples, of which 4 are wanted"));
 
   times = even_times();
   std::fill(times.begin() + 60, times.begin() + 62, times[59]);

@@ -149,6 +149,49 @@ TEST_CASE("a sprung mass sinks until its spring carries it; one that nothing hol
                                              Catch::Matchers::ContainsSubstring("1e+04 N act on it along"));
 }
 
+TEST_CASE("a load that springs take up on the same nodes leaves nothing applied, and the block settles", "[static]") {
+  for (const auto method : {scene::SettleMethod::newton, scene::SettleMethod::relaxation}) {
+    scene::Scene scene = settling(block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-6), 1e-3);
+    scene.settle.method = method;
+    add_spring(scene, "ground", "block", {1e6, 2e6, 3e6});
+    add_force(scene, "block", {1000, 500, 200});
+    Model model;
+    build_model(scene, model);
+    const SettleReport report = settle_whole(model);
+    INFO(report.steps << " evaluations, unbalance " << report.unbalance << "; " << report.adrift);
+    CHECK(report.settled);
+    const Vec3 moved = mean(model, NodeField::displacement, all_nodes(model)), expected{1e-3, 2.5e-4, 200 / 3e6};
+    for (int i = 0; i < 3; ++i) CHECK_THAT(moved[i], WithinRel(expected[i], 1e-5));
+  }
+}
+
+TEST_CASE("a scene of whose loads none has begun is settled as it lies", "[static]") {
+  for (const auto method : {scene::SettleMethod::newton, scene::SettleMethod::relaxation}) {
+    // Away from the origin, where places are rounded.
+    scene::Scene scene = settling(block_scene({0.1, 0.1, 0.1}, {3, 3, 3}, 1e-6), 1e-3);
+    scene.settle.method = method;
+    scene.parts[0].position = {0.37, 1.23, 0.41};
+    add_spring(scene, "ground", "block.z_min", {1e6, 2e6, 3e6});
+    Model model;
+    build_model(scene, model);
+    const SettleReport report = settle_whole(model);
+    INFO(report.steps << " evaluations, unbalance " << report.unbalance);
+    CHECK(report.settled);
+    CHECK(report.steps <= 50);
+  }
+}
+
+TEST_CASE("a block that its load crushes is refused, for no state of finite forces is left to run from", "[static]") {
+  scene::Scene scene = settling(block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1e-5), 1e-3);
+  scene.settle.method = scene::SettleMethod::relaxation;
+  scene.materials[0].yield_stress = 1e8;
+  hold(scene, "block.z_min", {true, true, true});
+  add_pressure(scene, "block.z_max", 1e9);
+  Model model;
+  build_model(scene, model);
+  REQUIRE_THROWS_WITH(settle_whole(model), Catch::Matchers::ContainsSubstring("[settle]: forces are no longer finite"));
+}
+
 TEST_CASE("a block that hangs on nothing does not settle, and is named", "[static]") {
   TwoBlocks blocks;
   scene::Scene scene = settling(blocks.scene(1e-3), 1e-6);

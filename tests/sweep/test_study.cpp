@@ -139,6 +139,10 @@ TEST_CASE("mistakes of a study say where and how to mend", "[sweep]") {
   CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end\n1e-3,2\n"),
              ContainsSubstring("members.csv:2: has 2 cells, the heading has 1"));
   CHECK_THAT(mistakes("table = \"members.csv\"\n", "time.end\n\"1e-3\n"), ContainsSubstring("is not closed"));
+  for (const std::string by : {";", "\t"})
+    CHECK_THAT(
+        mistakes("table = \"members.csv\"\n", "time.end" + by + "contacts.between.friction\n1e-3" + by + "0,1\n"),
+        ContainsSubstring("members.csv:1: the heading is one key") && ContainsSubstring("parted by commas"));
   CHECK_THAT(mistakes("[figures]\na = \"patch.between.peak_sheer\"\n"),
              ContainsSubstring("a patch has no 'peak_sheer'; did you mean 'peak_shear'?"));
   CHECK_THAT(mistakes("[figures]\na = {of = \"energy.kinetic\", take = \"maximun\"}\n"),

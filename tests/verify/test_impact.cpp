@@ -112,3 +112,18 @@ TEST_CASE("blocks of different meshes and sizes that meet off centre keep moment
     CHECK(result.reaction < 1e-12);
   }
 }
+
+TEST_CASE("what friction takes of a block that comes at a slant is booked from the first touch on") {
+  for (const auto normals : {scene::ContactNormals::facet, scene::ContactNormals::smooth}) {
+    TwoBlocks blocks;
+    blocks.algorithm = scene::ContactAlgorithm::multiplier;
+    blocks.friction = 2;  // sticks at once
+    scene::Scene scene = falling_block(blocks, 2.0, 2e-5);
+    scene.initial_motions[0].velocity[0] = 4;
+    scene.contacts[0].normals = normals;
+    const Impact result = impact(scene, 2.0);
+    INFO("imbalance " << result.imbalance << " of the energy of the fall");
+    CHECK(result.first_contact >= 0);
+    CHECK(result.imbalance < 0.005);
+  }
+}

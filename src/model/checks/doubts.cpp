@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
@@ -45,6 +48,59 @@ void overlapping_parts(const AssembledScene& assembled, Doubts& doubts) {
         fmt::format("[parts.{}] (line {}) and [parts.{}] (line {}) overlap: {} nodes of one lie inside elements of the "
                     "other, the first at {}; see their positions",
                     first.name, first.line, second.name, second.line, overlap.inside, place_text(overlap.place)));
+  }
+}
+
+/// By a contact, a tie, a connector or a beam.
+bool linked(const scene::Scene& scene, const std::string& a, const std::string& b) {
+  const auto links = [&](const auto& one) {
+    const std::string from = part_of_name(one.from), to = part_of_name(one.to);
+    return (from == a && to == b) || (from == b && to == a);
+  };
+  return joined(scene, a, b) || std::any_of(scene.connectors.begin(), scene.connectors.end(), links) ||
+         std::any_of(scene.beams.begin(), scene.beams.end(), links);
+}
+
+/// Element sets of one mesh have nodes of their own as parts: where they meet nothing joins them by itself.
+void parts_of_one_mesh(const AssembledScene& assembled, Doubts& doubts) {
+  const Assembly& assembly = assembled.assembly;
+  const auto& parts = assembled.scene.parts;
+  const auto of_one_mesh = [&](std::size_t a, std::size_t b) {
+    return parts[a].mesh == parts[b].mesh && !parts[a].element_set.empty() && !parts[b].element_set.empty();
+  };
+  std::vector<std::pair<Vec3, int>> places;  // with the part
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    for (std::size_t q = 0; q < assembly.parts.size(); ++q)
+      if (q != p && of_one_mesh(p, q)) {
+        const int first = assembly.parts[p].first_node;
+        for (int n = first; n < first + assembly.parts[p].node_count; ++n)
+          places.emplace_back(assembly.nodes[n], static_cast<int>(p));
+        break;
+      }
+  std::sort(places.begin(), places.end());
+  std::map<std::pair<int, int>, std::set<Vec3>> common;  // of pairs of parts
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = i + 1; k < places.size() && places[k].first == places[i].first; ++k)
+      if (of_one_mesh(places[i].second, places[k].second) && places[i].second != places[k].second)
+        common[{places[i].second, places[k].second}].insert(places[i].first);
+  for (const auto& [pair, nodes] : common) {
+    const scene::Part &first = parts[pair.first], &second = parts[pair.second];
+    if (linked(assembled.scene, first.name, second.name)) continue;
+    const auto is_common = [&, &these = nodes](int n) { return these.count(assembly.nodes[n]) != 0; };
+    const Assembly::PartRange& range = assembly.parts[pair.first];
+    int faces = 0;
+    for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
+      for (int side = 0; side < 6; ++side) {
+        const auto corners = assembly.face_nodes({e, side});
+        faces += std::all_of(corners.begin(), corners.end(), is_common) ? 1 : 0;
+      }
+    if (faces == 0) continue;
+    doubts.push_back(
+        fmt::format("[parts.{}] (line {}) and [parts.{}] (line {}) are of one mesh and have {} in common, one of "
+                    "their corners at {}, but nothing joins them: they are bodies of their own and come apart there; "
+                    "tie surfaces of theirs by [ties], or let them touch by [contacts]",
+                    first.name, first.line, second.name, second.line,
+                    faces == 1 ? "a face" : fmt::format("{} faces", faces), place_text(*nodes.begin())));
   }
 }
 
@@ -175,6 +231,7 @@ std::vector<std::string> mesh_doubts(const AssembledScene& assembled, const std:
                                      double step_size) {
   Doubts doubts;
   overlapping_parts(assembled, doubts);
+  parts_of_one_mesh(assembled, doubts);
   overlapping_contacts(assembled, contacts, step_size, doubts);
   inner_faces(assembled, doubts);
   entries_without_effect(assembled, doubts);
@@ -186,6 +243,7 @@ std::vector<std::string> scene_doubts(const AssembledScene& assembled, const std
   Doubts doubts = rolling_doubts(assembled);
   unlike_starts(assembled, doubts);
   overlapping_parts(assembled, doubts);
+  parts_of_one_mesh(assembled, doubts);
   overlapping_contacts(assembled, contacts, step_size, doubts);
   loads_on_held_nodes(assembled, doubts);
   inner_faces(assembled, doubts);

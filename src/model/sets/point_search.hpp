@@ -45,16 +45,24 @@ class NodeGrid {
   /// @param bounds that hold those of `nodes`
   NodeGrid(const std::vector<Vec3>& places, const std::vector<int>& nodes, const Bounds& bounds)
       : places_(places), low_(bounds[0]) {
-    double volume = 1;
-    for (int i = 0; i < 3; ++i) volume *= std::max(bounds[1][i] - bounds[0][i], 1e-12);
-    cell_ = std::max(std::cbrt(volume / static_cast<double>(nodes.size())), 1e-9);
-    for (int i = 0; i < 3; ++i) cell_ = std::max(cell_, (bounds[1][i] - bounds[0][i]) / 1000);
+    Vec3 extent;
+    for (int i = 0; i < 3; ++i) extent[i] = bounds[1][i] - bounds[0][i];
+    std::sort(extent.begin(), extent.end());
+    // As far as nodes are apart, be they on a line, on a surface or in a body.
+    const double count = static_cast<double>(nodes.size());
+    cell_ = std::max({1e-9, extent[2] / 1000, extent[2] / count, std::sqrt(extent[2] * extent[1] / count),
+                      std::cbrt(extent[2] * extent[1] * extent[0] / count)});
+    top_ = cell_of(bounds[1]);
     for (int n : nodes) cells_[key(cell_of(places[n]))].push_back(n);
   }
 
   template <class Take>
   void within(const Bounds& bounds, const Take& take) const {
-    const auto first = cell_of(bounds[0]), last = cell_of(bounds[1]);
+    auto first = cell_of(bounds[0]), last = cell_of(bounds[1]);
+    for (int i = 0; i < 3; ++i) {
+      first[i] = std::max(first[i], 0L);
+      last[i] = std::min(last[i], top_[i]);
+    }
     for (long i = first[0]; i <= last[0]; ++i)
       for (long j = first[1]; j <= last[1]; ++j)
         for (long k = first[2]; k <= last[2]; ++k)
@@ -74,7 +82,8 @@ class NodeGrid {
 
   const std::vector<Vec3>& places_;
   Vec3 low_;
-  double cell_ = 1;  ///< m
+  double cell_ = 1;            ///< m
+  std::array<long, 3> top_{};  ///< the last cell along each axis
   std::unordered_map<long, std::vector<int>> cells_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "case/error.hpp"
 #include "kernels/statics/relaxation.hpp"
@@ -118,6 +119,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;
+  AppliedForces applied(model);
   for (report.steps = 0; report.steps < most_steps; ++report.steps) {
     model.step = report.steps;
     run_tasks(plan.forces, instant, model.step);
@@ -141,6 +143,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
       sum[0] += beams.unbalanced;
       sum[1] += beams.applied;
     }
+    sum[1] = applied(sum[1]);
     report.unbalance = sum[1] > 0 ? sum[0] / sum[1] : sum[0];
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
@@ -193,6 +196,18 @@ SettleReport settle_by(scene::SettleMethod method, Model& model, const std::func
 
 }  // namespace
 
+AppliedForces::AppliedForces(const Model& model) {
+  const Assembly& assembly = model.assembly;
+  double farthest = 0, stiffness = 0;
+  for (const Vec3& x : assembly.nodes)
+    for (const double along : x) farthest = std::max(farthest, std::fabs(along));
+  for (const auto& part : assembly.parts)
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      stiffness += model.scene.materials[part.material].dilatational_modulus() * model.element_length[e];
+  constexpr double half_a_unit = 0.5 * std::numeric_limits<double>::epsilon();  // in the last place
+  least_ = half_a_unit * farthest * stiffness / model.scene.settle.tolerance;
+}
+
 std::vector<Vec3> centrifugal_field(const AssembledScene& assembled, const Array<double* [3]>& reference,
                                     const std::shared_ptr<BeamModel>& beams) {
   std::vector<Vec3> field(assembled.assembly.nodes.size(), Vec3{0, 0, 0});
@@ -237,6 +252,12 @@ std::vector<SettlingTasks> describe_settling(Model& model) {
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others) {
   const auto began = std::chrono::steady_clock::now();
   SettleReport report = settle_by(model.scene.settle.method, model, go_on, others);
+  if (!std::isfinite(report.unbalance))
+    throw InputError(fmt::format(
+        "{}: [settle]: forces are no longer finite after {} evaluations: the scene has no equilibrium, or dynamic "
+        "relaxation flies past it; hold what can drift away, lower loads that are more than the bodies bear, or leave "
+        "[settle] out{}{}",
+        model.scene.path, report.steps, report.adrift.empty() ? "" : "; Newton's method before it: ", report.adrift));
   // The run starts from what a file of the state would hold, and from nothing else.
   restore_static_state(model, save_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -250,7 +271,9 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
   std::string begun_from;
   if (states != nullptr) {
     SettledStates::Found found = states->find(model);
-    if (found.state && !found.state->settled && !model.scene.settle.keep_unsettled) found.state.reset();
+    if (found.state && !found.state->settled &&
+        !(model.scene.settle.keep_unsettled && std::isfinite(found.state->unbalance)))
+      found.state.reset();
     if (!found.trouble.empty()) remarks.push_back(found.file + ": " + found.trouble + "; the scene settles anew");
     if (found.state && !restore_static_state(model, *found.state))
       remarks.push_back(found.file + ": is of another model; the scene settles anew");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,11 +26,27 @@ struct SettleReport {
   std::vector<std::string> remarks;  ///< on the method, and on the files of settled states
 };
 
+/// What unbalanced forces are held against, N: all that is applied now. Where that cancels node by node, as a load does
+/// that a connector takes up on the same nodes, a ten-thousandth of what was applied where settling began; where next
+/// to nothing is applied, so much that what the rounding of places leaves of the elements' forces counts as settled.
+class AppliedForces {
+ public:
+  explicit AppliedForces(const Model& model);
+  double operator()(double now) {
+    if (first_ < 0) first_ = now;
+    return std::max({now, 1e-4 * first_, least_});
+  }
+
+ private:
+  double first_ = -1, least_ = 0;
+};
+
 /// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.cpp), and where that finds none or
 /// the case asks for it by dynamic relaxation with kinetic damping (velocities are reset at every peak of the kinetic
 /// energy) and a little local damping: the state from which the run starts. Bodies that will rotate (initial_motion)
 /// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
 /// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
+/// @throws InputError where a body that nothing holds or that its loads crush leaves no finite forces
 /// @param go_on called every few steps with how far it is; false ends the relaxation early
 /// @param others ranks that wait for rank 0's orders and take part; null: there are none
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on, Transport* others = nullptr);

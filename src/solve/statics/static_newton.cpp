@@ -162,6 +162,7 @@ class Newton {
     double sum[2];
     block_sum(StaticUnbalance{residual_}, unknowns_.nodes(), sum, *model_.reduction_space);
     if (model_.beams) add_moments(sum);
+    sum[1] = applied_(sum[1]);
     return {sum[1] > 0 ? sum[0] / sum[1] : sum[0], inner(residual_.residual, step_), sum[1]};
   }
 
@@ -290,6 +291,7 @@ class Newton {
   StaticCoarse coarse_;
   double shift_ = least_shift, floor_ = least_shift;
   StaticResidual residual_;
+  AppliedForces applied_{model_};
   Array<double* [3]> origin_;
   NodeVector step_, left_, z_, way_, image_;
   Array<double* [4]> turned_from_;

@@ -68,9 +68,12 @@ KOKKOS_FORCEINLINE_FUNCTION void subtract_rows(double* rows, const std::uint8_t*
 template <bool WithVelocity>
 struct NodeRecords {
   static constexpr int values = WithVelocity ? 10 : 8, mass_place = values - 1;
+  static constexpr int position_value(int i) { return i < 2 ? i : 4; }
+  static constexpr int displacement_value(int i) { return i < 2 ? 2 + i : 5; }
+  static constexpr int velocity_value(int i) { return 6 + i; }
   /// Elements whose corners are loaded, computed and added up together: as many whatever the lanes of a pack, so that
   /// sums have the same order on any processor.
-  static constexpr int group = 8;
+  static constexpr int group = elements_of_group;
   static_assert(group % lane_count<double> == 0 && elements_of_block % group == 0);
 
   double* record;
@@ -126,10 +129,12 @@ struct NodeRecords {
           load_pair(of_lane, pair, value[2 * pair][N], value[2 * pair + 1][N]);
       }
     }
-    void position(int i, T (&m)[7]) const { modes_of(value[i < 2 ? i : 4], m); }
-    void displacement(int i, T (&m)[7]) const { modes_of(value[i < 2 ? 2 + i : 5], m); }
-    void velocity(int i, T (&m)[7]) const { modes_of(value[6 + i], m); }
-    void put_force(int i, const T (&f)[8]) {
+    void position(int i, T (&m)[7]) const { modes_of(value[position_value(i)], m); }
+    void displacement(int i, T (&m)[7]) const { modes_of(value[displacement_value(i)], m); }
+    void velocity(int i, T (&m)[7]) const { modes_of(value[velocity_value(i)], m); }
+    void put_force(int i, const T (&m)[7]) {
+      T f[8];
+      corners_of(m, f);
       for (int N = 0; N < 8; ++N) force[N][i] = f[N];
     }
   };

@@ -69,7 +69,8 @@ void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Tra
   Activity laying("ordering the elements");
   check_elements(model);
   model.order = order_in_blocks(model.assembly,
-                                scene.solver.subcycling ? element_levels(scene, model.assembly) : std::vector<int>{});
+                                scene.solver.subcycling ? element_levels(scene, model.assembly) : std::vector<int>{},
+                                !on_device && !scene.solver.elements_in_single());
   model.absorbing = absorbing_layers(scene, model.assembly);
   build_surroundings(model);
   // From here on ranks wait for each other.

@@ -171,3 +171,22 @@ TEST_CASE("rows end where sheets of elements have no node in common") {
   CHECK(rows.left == static_cast<int>(assembly.elements.size()));  // along y there are rows still
   each_block(assembly, rows, [](const auto& /*elements*/, int nodes_of_one) { CHECK(nodes_of_one <= nodes_of_block); });
 }
+
+TEST_CASE("blocks keep to their level where rows are and where they are not worth it") {
+  Assembly assembly = box({10, 10, 7});
+  Assembly::PartRange& part = assembly.parts.emplace_back();
+  part.element_count = static_cast<int>(assembly.elements.size());
+  part.node_count = static_cast<int>(assembly.nodes.size());
+  std::mt19937 generator(3);
+  std::vector<int> levels;
+  // Scattered elements share few nodes, whole layers have rows.
+  for (std::size_t e = 0; e < assembly.elements.size(); ++e)
+    levels.push_back(e < assembly.elements.size() / 2 ? 0 : 1 + static_cast<int>(generator() % 3 == 0));
+  std::array<int, 3> expected{}, found{};
+  for (int level : levels) ++expected[level];
+  const BlockOrder order = order_in_blocks(assembly, levels, true);
+  REQUIRE(order.level.size() + 1 == order.first_element.size());
+  for (std::size_t p = 0; p < order.level.size(); ++p)
+    found[order.level[p]] += order.first_element[p + 1] - order.first_element[p];
+  CHECK(found == expected);
+}

@@ -49,13 +49,14 @@ void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int 
   const std::size_t from = first.size();
   std::vector<int> plain = elements, first_plain = first;
   const int left = gather_rows(assembly, elements, begin, end, first);
-  if (left == end) return;
-  divide_into_blocks(assembly, elements, left, end, first);
+  if (left < end) divide_into_blocks(assembly, elements, left, end, first);
+  if (left == begin || left == end) return;
   divide_into_blocks(assembly, plain, begin, end, first_plain);
   const double more =
       node_count(assembly, elements, first, from, end) - node_count(assembly, plain, first_plain, from, end);
   if (more < worth_of_row * (left - begin)) return;
-  elements = std::move(plain);
+  // In place, for the caller has iterators.
+  std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
   first = std::move(first_plain);
 }
 

@@ -1,8 +1,11 @@
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_exception.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 #include <random>
 
 #include "model/host_copy.hpp"
+#include "solve/checkpoint/run_state.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/solve/moved_blocks.hpp"
 #include "tests/verify/march.hpp"
@@ -65,4 +68,20 @@ TEST_CASE("blocks with edge groups move their nodes as blocks without") {
   CHECK(moved > 0.1);
   CHECK(largest > 0);
   CHECK(largest < 1e-10 * moved);
+}
+
+TEST_CASE("a state whose elements lie in another order is refused") {
+  Model model;
+  build_model(block_scene({0.004, 0.004, 0.004}, {4, 4, 4}, 1e-6), model);
+  RunState state;
+  save_model_state(model, state);
+  CHECK_NOTHROW(restore_model_state(model, state));
+  int found = 0;
+  for (RunState::Values& values : state.values)
+    if (values.name == "elements_in_rows") {
+      values.bytes[0] ^= 1;
+      ++found;
+    }
+  CHECK(found == 1);
+  CHECK_THROWS_WITH(restore_model_state(model, state), Catch::Matchers::ContainsSubstring("order of elements"));
 }

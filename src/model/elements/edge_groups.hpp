@@ -7,6 +7,9 @@
 
 namespace railwave {
 
+/// Whether a model's elements are put in rows: processors gain by them in double precision.
+inline bool wants_rows(bool in_single) { return !on_device && !in_single; }
+
 inline constexpr int no_element = -1, element_sides = 6;
 /// Sides of an element as turned: xi, eta and zeta from below and above.
 inline constexpr int xi_below = 0, xi_above = 1, first_side_across = 2;

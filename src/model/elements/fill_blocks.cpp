@@ -59,7 +59,7 @@ class BlockFiller {
               ElementGroup& group)
       : assembled_(assembled),
         absorbing_(absorbing),
-        in_double_(!single),
+        in_rows_(wants_rows(single)),
         lanes_(single ? lane_count<float> : lane_count<double>),
         group_(group),
         node_(to_host(group.blocks.node)),
@@ -71,7 +71,7 @@ class BlockFiller {
 
   void fill() {
     fill_corners();
-    if (!on_device && in_double_) fill_edges();
+    if (in_rows_) fill_edges();
     fill_scales();
     if (group_.material.flows()) fill_volumes();
     if (group_.damping.active()) fill_drag();
@@ -224,7 +224,7 @@ class BlockFiller {
 
   const AssembledScene& assembled_;
   const AbsorbingLayers& absorbing_;
-  const bool in_double_;
+  const bool in_rows_;
   const int lanes_;
   ElementGroup& group_;
   const Array<int*>::HostMirror node_, node_count_, row_;

@@ -44,11 +44,21 @@ void before_libraries(int, char**, char**) { expect(of_libraries); }
 bool has_begun() noexcept { return begun; }
 
 void end_for_want_of_memory() noexcept {
-  constexpr const char* text =
-      "railwave: out of memory: not even the program itself finds enough to begin; see ulimit -v, ulimit -d and what "
-      "else takes memory\n";
-  const auto written = write(STDERR_FILENO, text, std::strlen(text));
-  static_cast<void>(written);
+  const auto say = [](const char* text) {
+    const auto written = write(STDERR_FILENO, text, std::strlen(text));
+    static_cast<void>(written);
+  };
+  say("railwave: ");
+  // Of a process that has not joined the others yet what has started it knows which it is.
+  for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
+    if (const char* rank = std::getenv(variable)) {
+      say("rank ");
+      say(rank);
+      say(": ");
+      break;
+    }
+  say("out of memory: not even the program itself finds enough to begin; see ulimit -v, ulimit -d and what else takes "
+      "memory\n");
   _exit(1);
 }
 

@@ -4,7 +4,8 @@
 
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
-#include "tests/verify/two_blocks.hpp"
+#include "tests/verify/open_ends.hpp"
+#include "tests/verify/tied_blocks.hpp"
 
 namespace railwave::verify {
 
@@ -28,6 +29,16 @@ inline scene::Scene moved_blocks() {
   scene.prescribed_motions[1].directions = {false, false, true};
   scene.constraints.clear();
   hold(scene, "lower.x_min", {true, true, true});
+  return scene;
+}
+
+/// Tied blocks that loads press and pull, with a non-reflecting end.
+inline scene::Scene tied_and_open(const TiedBlocks& blocks) {
+  scene::Scene scene = blocks.scene(4e-4);
+  add_ramp(scene, "grows", 0, 6e-5);
+  add_pressure(scene, "fine.z_max", 1e7, "grows");
+  add_force(scene, "coarse.x_max", {2e3, 1e3, 0}, "grows");
+  add_dashpots(scene, "coarse.z_min");
   return scene;
 }
 

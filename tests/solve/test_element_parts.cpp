@@ -5,8 +5,6 @@
 #include "solve/plan.hpp"
 #include "solve/statics/settle.hpp"
 #include "tests/solve/moved_blocks.hpp"
-#include "tests/verify/open_ends.hpp"
-#include "tests/verify/tied_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -70,48 +68,36 @@ End in_order(Model& model) {
 /// elements of the step before, and before the nodes that these move.
 End elements_last(Model& model) {
   Due left;
-  const auto end = [&] {
-    return after_steps(model, [&](const Due& all) {
-      std::size_t taken = 0;
-      const auto take = [&](const auto& wanted) {
-        Due some = all;
-        some.tasks.clear();
-        for (const Task& task : all.tasks)
-          if (wanted(task)) some.tasks.push_back(task);
-        taken += some.tasks.size();
-        return some;
-      };
-      const auto first = [](const Task& task) { return task.part == 0 && task.begins == Begins::in_order; };
-      const Due frames = take([](const Task& task) { return task.stage < Stage::own_forces; });
-      if (!frames.tasks.empty()) left.run(model);
-      frames.run(model);
-      take([](const Task& task) { return task.stage == Stage::own_forces && !of_elements(task); }).run(model);
-      if (frames.tasks.empty()) left.run(model);
-      take([&](const Task& task) { return of_elements(task) && first(task); }).run(model);
-      take([&](const Task& task) { return task.stage > Stage::own_forces && first(task); }).run(model);
-      left = take([&](const Task& task) { return !first(task); });
-      REQUIRE(taken == all.tasks.size());
-      if (all.step == steps - 1) left.run(model);
-    });
-  };
-  return end();
-}
-
-scene::Scene tied_and_open() {
-  TiedBlocks blocks;
-  blocks.fine = {8, 8, 32};
-  scene::Scene scene = blocks.scene(4e-4);
-  add_ramp(scene, "grows", 0, 6e-5);
-  add_pressure(scene, "fine.z_max", 1e7, "grows");
-  add_force(scene, "coarse.x_max", {2e3, 1e3, 0}, "grows");
-  add_dashpots(scene, "coarse.z_min");
-  return scene;
+  return after_steps(model, [&](const Due& all) {
+    std::size_t taken = 0;
+    const auto take = [&](const auto& wanted) {
+      Due some = all;
+      some.tasks.clear();
+      for (const Task& task : all.tasks)
+        if (wanted(task)) some.tasks.push_back(task);
+      taken += some.tasks.size();
+      return some;
+    };
+    const auto first = [](const Task& task) { return task.part == 0 && task.begins == Begins::in_order; };
+    const Due frames = take([](const Task& task) { return task.stage < Stage::own_forces; });
+    if (!frames.tasks.empty()) left.run(model);
+    frames.run(model);
+    take([](const Task& task) { return task.stage == Stage::own_forces && !of_elements(task); }).run(model);
+    if (frames.tasks.empty()) left.run(model);
+    take([&](const Task& task) { return of_elements(task) && first(task); }).run(model);
+    take([&](const Task& task) { return task.stage > Stage::own_forces && first(task); }).run(model);
+    left = take([&](const Task& task) { return !first(task); });
+    REQUIRE(taken == all.tasks.size());
+    if (all.step == steps - 1) left.run(model);
+  });
 }
 
 }  // namespace
 
 TEST_CASE("all but elements may go on beside the second part of the elements, bit for bit") {
-  scene::Scene scene = tied_and_open();
+  TiedBlocks blocks;
+  blocks.fine = {8, 8, 32};
+  scene::Scene scene = tied_and_open(blocks);
   SECTION("ties and non-reflecting ends") {}
   SECTION("in single precision") { scene.solver.precision = scene::Precision::single_precision; }
   SECTION("in mixed precision") { scene.solver.precision = scene::Precision::mixed; }
@@ -143,7 +129,9 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
 }
 
 TEST_CASE("elements come in one part where they are not one launch") {
-  scene::Scene scene = tied_and_open();
+  TiedBlocks blocks;
+  blocks.fine = {8, 8, 32};
+  scene::Scene scene = tied_and_open(blocks);
   SECTION("damping") {
     for (scene::Part& part : scene.parts) part.stiffness_damping = 1e-8;
   }

@@ -6,8 +6,6 @@
 #include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/solve/moved_blocks.hpp"
-#include "tests/verify/open_ends.hpp"
-#include "tests/verify/tied_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -89,11 +87,7 @@ TEST_CASE("nodes that wait for neither ties nor non-reflecting ends move beside 
   TiedBlocks blocks;
   SECTION("double") {}
   SECTION("single") { blocks.precision = scene::Precision::single_precision; }
-  scene::Scene scene = blocks.scene(4e-4);
-  add_ramp(scene, "grows", 0, 6e-5);
-  add_pressure(scene, "fine.z_max", 1e7, "grows");
-  add_force(scene, "coarse.x_max", {2e3, 1e3, 0}, "grows");
-  add_dashpots(scene, "coarse.z_min");
+  const scene::Scene scene = tied_and_open(blocks);
   Model model;
   build_model(scene, model);
   REQUIRE(model.early_shared > 0);

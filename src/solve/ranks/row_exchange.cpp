@@ -215,15 +215,11 @@ Task RowExchange::receive_task() {
 }
 
 Task RowExchange::side_begin_task() {
-  Task task{"beginning of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->begin(); }};
-  task.recordable = between_devices();
-  return task;
+  return {"beginning of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->begin(); }};
 }
 
 Task RowExchange::side_end_task() {
-  Task task{"end of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->finish(); }};
-  task.recordable = between_devices();
-  return task;
+  return {"end of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->finish(); }};
 }
 
 std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {

@@ -63,7 +63,8 @@ class RowExchange {
   Task send_task(bool beside);
   /// Before anything that needs all forces.
   Task receive_task();
-  /// After it: what is launched in side_space() from then on may go beside others until the second of them.
+  /// Between devices, after it: what is launched in side_space() from then on may go beside others until the second of
+  /// them.
   Task side_begin_task();
   Task side_end_task();
 

@@ -34,6 +34,10 @@ inline constexpr int power_sums = 16;
 /// Where a group of values that a thread reads at once begins and how long it is: 16 bytes of place numbers.
 inline constexpr int places_at_once = 8;
 
+/// So many elements, of consecutive slots, are a group of a host's, whatever the lanes of a pack there: results are the
+/// same then on any processor.
+inline constexpr int elements_of_group = 8;
+
 /// The rigid motion from which single precision measures a block's displacements: u = (x - now) - turn (X - before).
 /// Any turn and any point near the block's own will do, so the frames are renewed only now and then; what they take out
 /// is what would cost digits.
@@ -68,9 +72,16 @@ struct ElementBlocks {
   Array<double * [BlockFrame::values]> frame;  ///< empty in double precision
   Array<std::uint8_t*> corner;                 ///< by batch: eight places in the block's nodes, corner by corner
   Array<std::uint16_t*> first_place;  ///< pack_stride for each block, by pack of nodes: where its corner places begin
-  Array<std::uint16_t*> place;    ///< place_stride for each block: the corner forces that meet at a pack's nodes, its
-                                  ///< lanes together
-  Array<float*> hourglass_scale;  ///< by slot: c (kg/s) or k (N/m) of the hourglass control
+  Array<std::uint16_t*> place;  ///< place_stride for each block: the corner forces that meet at a pack's nodes, its
+                                ///< lanes together
+  /// On a host in double precision: an edge group are the edges at the same place in the elements of a group, for the
+  /// four places along one of the elements' directions. Groups of elements that are neighbours share them. A block for
+  /// whose elements that spares little has none.
+  int edge_stride = 0;        ///< room for the edge groups of any block
+  Array<int*> edge_count;     ///< edge groups of each block
+  Array<std::uint8_t*> edge;  ///< 2 elements_of_group for each edge group: places of the edges' nodes, lower xi first
+  Array<std::uint8_t*> edge_of_group;  ///< four edge groups for each group of elements
+  Array<float*> hourglass_scale;       ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;  ///< by slot, N/m: stiffness control while settling, whatever the run's own control
   Array<double*> hourglass_energy;   ///< power_sums for each block: J dissipated so far
 };

@@ -12,6 +12,9 @@ namespace {
 /// slower.
 constexpr double worthwhile_share = 0.95;
 
+/// A node that a block has more takes as long as an element gains in a row, or somewhat longer.
+constexpr double worth_of_row = 0.3;
+
 void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
                         std::vector<int>& first) {
   std::vector<int> grown = elements, first_grown = first;
@@ -23,6 +26,38 @@ void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, in
   if (first_grown.size() >= worthwhile_share * first.size()) return;
   std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
   first = std::move(first_grown);
+}
+
+/// Nodes of all blocks from first[from] on, those of several counted for each.
+double node_count(const Assembly& assembly, const std::vector<int>& elements, const std::vector<int>& first,
+                  std::size_t from, int end) {
+  std::vector<int> seen(assembly.nodes.size(), -1);
+  double count = 0;
+  for (std::size_t p = from; p < first.size(); ++p)
+    for (int k = first[p]; k < (p + 1 < first.size() ? first[p + 1] : end); ++k)
+      for (int n : assembly.elements[elements[k]]) {
+        if (seen[n] == static_cast<int>(p)) continue;
+        seen[n] = static_cast<int>(p);
+        ++count;
+      }
+  return count;
+}
+
+/// The same with as many elements as possible in rows.
+void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                      std::vector<int>& first) {
+  const std::size_t from = first.size();
+  std::vector<int> plain = elements, first_plain = first;
+  const int left = gather_rows(assembly, elements, begin, end, first);
+  if (left < end) divide_into_blocks(assembly, elements, left, end, first);
+  if (left == begin || left == end) return;
+  divide_into_blocks(assembly, plain, begin, end, first_plain);
+  const double more =
+      node_count(assembly, elements, first, from, end) - node_count(assembly, plain, first_plain, from, end);
+  if (more < worth_of_row * (left - begin)) return;
+  // In place, for the caller has iterators.
+  std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
+  first = std::move(first_plain);
 }
 
 /// New number of each node.
@@ -94,7 +129,7 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
 
 }  // namespace
 
-BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels) {
+BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels, bool in_rows) {
   std::vector<int> elements(assembly.elements.size());
   BlockOrder order;
   auto& first = order.first_element;
@@ -106,8 +141,8 @@ BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels) {
     for (auto same = begin; same != end;) {
       const int level = level_of(*same);
       const auto next = std::find_if(same, end, [&](int e) { return level_of(e) != level; });
-      divide_into_blocks(assembly, elements, static_cast<int>(same - elements.begin()),
-                         static_cast<int>(next - elements.begin()), first);
+      (in_rows ? divide_with_rows : divide_into_blocks)(assembly, elements, static_cast<int>(same - elements.begin()),
+                                                        static_cast<int>(next - elements.begin()), first);
       order.level.resize(first.size(), level);
       same = next;
     }

@@ -19,8 +19,9 @@ constexpr int no_block = -1, not_asked_for = -2;
 
 class Grower {
  public:
-  Grower(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
+  Grower(const Assembly& assembly, const std::vector<int>& elements, int begin, int end, const BlockLimits& limits)
       : assembly_(assembly),
+        limits_(limits),
         first_around_(assembly.nodes.size() + 1, 0),
         centre_(assembly.elements.size()),
         block_(assembly.elements.size(), not_asked_for),
@@ -96,7 +97,7 @@ class Grower {
       take(e, number);
       block.push_back(e);
       for (int i = 0; i < 3; ++i) sum[i] += centre_[e][i];
-      if (block.size() == elements_of_block) break;
+      if (static_cast<int>(block.size()) == limits_.elements) break;
     }
     return block;
   }
@@ -129,7 +130,7 @@ class Grower {
     for (int e : considered_) {
       if (block_[e] == number) continue;
       considered_[kept++] = e;
-      if (node_count_ + 8 - shared_[e] > nodes_of_block) continue;
+      if (node_count_ + 8 - shared_[e] > limits_.nodes) continue;
       double squared = 0;
       for (int i = 0; i < 3; ++i) squared += (centre_[e][i] - sum[i] / count) * (centre_[e][i] - sum[i] / count);
       const double score = shared_[e] - freedom_weight * freedom(e) - scale * std::sqrt(squared);
@@ -143,6 +144,7 @@ class Grower {
   }
 
   const Assembly& assembly_;
+  const BlockLimits limits_;
   std::vector<int> first_around_, around_;  ///< elements around each node, of those to divide
   std::vector<int> left_;                   ///< how many of them are in no block yet
   std::vector<Vec3> centre_;                ///< m
@@ -155,10 +157,11 @@ class Grower {
 
 }  // namespace
 
-void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first,
+                 const BlockLimits& limits) {
   const std::size_t from = first.size();
-  Grower(assembly, elements, begin, end).divide(elements, begin, end, first);
-  join_scraps(assembly, elements, begin, end, first, from);
+  Grower(assembly, elements, begin, end, limits).divide(elements, begin, end, first);
+  join_scraps(assembly, elements, begin, end, first, from, limits);
 }
 
 }  // namespace railwave

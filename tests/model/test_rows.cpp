@@ -112,7 +112,7 @@ TEST_CASE("blocks of rows hold each element once, keep to their limits and share
     CHECK(elements.size() <= elements_of_block);
     CHECK(nodes <= nodes_of_block);
     CHECK(elements.size() % elements_of_group == 0);
-    const EdgeGroups groups = edge_groups(elements, nodes);
+    const EdgeGroups groups = edge_groups(elements);
     if (groups.node.empty()) return;
     with_edges += elements.size();
     edges += groups.node.size();
@@ -130,7 +130,7 @@ TEST_CASE("the edges of a group are those of its elements, turned like one anoth
                                              {6, 7}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   int checked = 0;
   each_block(assembly, rows, [&](const std::vector<std::array<int, 8>>& elements, int nodes) {
-    const EdgeGroups groups = edge_groups(elements, nodes);
+    const EdgeGroups groups = edge_groups(elements);
     for (std::size_t g = 0; g < groups.of_group.size(); ++g)
       for (int lane = 0; lane < elements_of_group; ++lane) {
         const auto& element = elements[elements_of_group * g + lane];

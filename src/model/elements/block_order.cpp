@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
@@ -28,10 +28,13 @@ void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, in
   first = std::move(first_grown);
 }
 
+/// Blocks of 5 x 5 x 5 elements have the fewest nodes an element.
+constexpr double fewest_nodes_of_element = 216.0 / 125;
+
 /// Nodes of all blocks from first[from] on, those of several counted for each.
 double node_count(const Assembly& assembly, const std::vector<int>& elements, const std::vector<int>& first,
                   std::size_t from, int end) {
-  std::vector<int> seen(assembly.nodes.size(), -1);
+  ValuesOfRange<int> seen(node_range(assembly.elements, elements, first[from], end), -1);
   double count = 0;
   for (std::size_t p = from; p < first.size(); ++p)
     for (int k = first[p]; k < (p + 1 < first.size() ? first[p + 1] : end); ++k)
@@ -44,17 +47,19 @@ double node_count(const Assembly& assembly, const std::vector<int>& elements, co
 }
 
 /// The same with as many elements as possible in rows.
+/// @param elements ascending from begin to end
 void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
                       std::vector<int>& first) {
   const std::size_t from = first.size();
-  std::vector<int> plain = elements, first_plain = first;
   const int left = gather_rows(assembly, elements, begin, end, first);
   if (left < end) divide_into_blocks(assembly, elements, left, end, first);
   if (left == begin || left == end) return;
+  const double nodes = node_count(assembly, elements, first, from, end), most_more = worth_of_row * (left - begin);
+  if (nodes < fewest_nodes_of_element * (end - begin) + most_more) return;
+  std::vector<int> plain = elements, first_plain(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(from));
+  std::sort(plain.begin() + begin, plain.begin() + end);
   divide_into_blocks(assembly, plain, begin, end, first_plain);
-  const double more =
-      node_count(assembly, elements, first, from, end) - node_count(assembly, plain, first_plain, from, end);
-  if (more < worth_of_row * (left - begin)) return;
+  if (nodes < node_count(assembly, plain, first_plain, from, end) + most_more) return;
   // In place, for the caller has iterators.
   std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
   first = std::move(first_plain);

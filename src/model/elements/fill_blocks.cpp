@@ -86,6 +86,11 @@ class BlockFiller {
   const scene::Material& material(int p) const {
     return assembled_.scene.materials[assembled_.assembly.parts[group_.part_of_row[row_(p)]].material];
   }
+  /// Of an element's corner in ElementBlocks::corner.
+  std::size_t corner_place(int p, int slot, int N) const {
+    const std::size_t batch = (static_cast<std::size_t>(p) * elements_of_block + slot) / lanes_;
+    return (8 * batch + N) * lanes_ + slot % lanes_;
+  }
   std::size_t slots() const { return static_cast<std::size_t>(group_.blocks.count) * elements_of_block; }
 
   /// On all threads: blocks have values of their own.
@@ -109,12 +114,10 @@ class BlockFiller {
     each_block([&](int p) {
       auto local = local_numbers(p);
       std::vector<Places> meeting(node_count_(p));
-      const std::size_t base = 8 * static_cast<std::size_t>(p) * elements_of_block;
       for (int slot = 0; slot < elements_of_block; ++slot)
         for (int N = 0; N < 8; ++N) {
           const int l = local[corners(p, slot)[N]];
-          corner(base + (static_cast<std::size_t>(slot / lanes_) * 8 + N) * lanes_ + slot % lanes_) =
-              static_cast<std::uint8_t>(l);
+          corner(corner_place(p, slot, N)) = static_cast<std::uint8_t>(l);
           if (slot < group_.element_count[p])
             meeting[l].push_back(static_cast<std::uint16_t>(N * elements_of_block + slot));
         }
@@ -128,13 +131,13 @@ class BlockFiller {
 
   void fill_edges() {
     ElementBlocks& blocks = group_.blocks;
+    const auto corner = to_host(blocks.corner);
     std::vector<EdgeGroups> found(blocks.count);
     each_block([&](int p) {
-      auto local = local_numbers(p);
       std::vector<std::array<int, 8>> elements(group_.element_count[p]);
       for (int slot = 0; slot < group_.element_count[p]; ++slot)
-        for (int N = 0; N < 8; ++N) elements[slot][N] = local[corners(p, slot)[N]];
-      found[p] = edge_groups(elements, node_count_(p));
+        for (int N = 0; N < 8; ++N) elements[slot][N] = corner(corner_place(p, slot, N));
+      found[p] = edge_groups(elements);
     });
     std::vector<int> count;
     blocks.edge_stride = 0;
@@ -152,11 +155,9 @@ class BlockFiller {
     each_block([&](int p) {
       const EdgeGroups& groups = found[p];
       for (std::size_t k = 0; k < groups.node.size(); ++k)
-        for (std::size_t n = 0; n < of_edge; ++n)
-          edge(of_edges * p + of_edge * k + n) = static_cast<std::uint8_t>(groups.node[k][n]);
+        for (std::size_t n = 0; n < of_edge; ++n) edge(of_edges * p + of_edge * k + n) = groups.node[k][n];
       for (std::size_t g = 0; g < groups.of_group.size(); ++g)
-        for (std::size_t k = 0; k < 4; ++k)
-          of_group(of_block * p + 4 * g + k) = static_cast<std::uint8_t>(groups.of_group[g][k]);
+        for (std::size_t k = 0; k < 4; ++k) of_group(of_block * p + 4 * g + k) = groups.of_group[g][k];
     });
     Kokkos::deep_copy(blocks.edge, edge);
     Kokkos::deep_copy(blocks.edge_of_group, of_group);

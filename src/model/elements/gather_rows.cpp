@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "model/elements/block_order.hpp"
-#include "model/elements/edge_groups.hpp"
+#include "model/elements/turned_elements.hpp"
 
 namespace railwave {
 namespace {
@@ -27,7 +29,8 @@ constexpr std::size_t least_of_sheet = rows_of_block;
 
 class RowFinder {
  public:
-  explicit RowFinder(const TurnedElements& turned) : turned_(turned), taken_(turned.corners.size(), 0) {}
+  RowFinder(const TurnedElements& turned, int direction)
+      : turned_(turned), direction_(direction), taken_(turned.next.size(), 0) {}
 
   Sheets find() {
     Sheets sheets;
@@ -45,12 +48,15 @@ class RowFinder {
  private:
   bool free(int e) const { return e != no_element && taken_[e] == 0; }
 
+  /// The neighbour at a side, where the rows' direction is xi.
+  int next(int e, int side) const { return turned_.next[e][side_along(direction_, side)]; }
+
   /// Takes the free elements along xi before and behind one, if they make a row.
   bool take_row(int e, Row& row) {
     std::vector<int> found{e};
     taken_[e] = 1;
     for (const int side : {xi_below, xi_above})
-      for (int at = turned_.next[e][side]; free(at) && found.size() < row_length; at = turned_.next[at][side]) {
+      for (int at = next(e, side); free(at) && found.size() < row_length; at = next(at, side)) {
         taken_[at] = 1;
         found.insert(side == xi_below ? found.begin() : found.end(), at);
       }
@@ -76,8 +82,8 @@ class RowFinder {
   /// Takes the free elements at one side of a row's, where they are a row.
   bool take_beside(const Row& row, int side, Row& beside) {
     for (int k = 0; k < row_length; ++k) {
-      beside[k] = turned_.next[row[k]][side];
-      const bool goes_on = k == 0 || turned_.next[beside[k - 1]][xi_above] == beside[k];
+      beside[k] = next(row[k], side);
+      const bool goes_on = k == 0 || next(beside[k - 1], xi_above) == beside[k];
       if (free(beside[k]) && goes_on && std::find(beside.begin(), beside.begin() + k, beside[k]) == beside.begin() + k)
         continue;
       return false;
@@ -87,24 +93,48 @@ class RowFinder {
   }
 
   const TurnedElements& turned_;
+  const int direction_;
   std::vector<char> taken_;
 };
 
+struct HashLine {
+  std::size_t operator()(const Line& line) const {
+    std::size_t hash = 0;
+    for (int n : line) hash = 1000003 * hash + static_cast<std::size_t>(n);
+    return hash;
+  }
+};
+
+/// Elements in rows along one direction of theirs.
+struct AlignedElements {
+  const Assembly& assembly;
+  const std::vector<int>& element;        ///< numbers in the assembly; rows have places among them
+  const std::vector<std::uint8_t>& turn;  ///< of each, see TurnedElements
+  int direction;
+
+  CornerNodes corners(int e) const { return turned(turned(assembly.elements[element[e]], turn[e]), direction); }
+};
+
 /// A sheet's rows as elements of an assembly of their own, between the ends of their lines of nodes.
-Assembly assembly_of_rows(const Assembly& assembly, const TurnedElements& turned, const Sheet& sheet) {
+Assembly assembly_of_rows(const AlignedElements& aligned, const Sheet& sheet) {
   constexpr int lower[4] = {0, 3, 4, 7}, upper[4] = {1, 2, 5, 6};
   Assembly rows;
-  std::map<Line, int> known;
+  std::unordered_map<Line, int, HashLine> known;
   for (const Row& row : sheet) {
-    std::array<int, 8> corners{};
+    Line lines[4];
+    for (int at = 0; at < row_length; ++at) {
+      const CornerNodes element = aligned.corners(row[at]);
+      for (int k = 0; k < 4; ++k) {
+        lines[k][at] = element[lower[k]];
+        lines[k][at + 1] = element[upper[k]];
+      }
+    }
+    CornerNodes corners{};
     for (int k = 0; k < 4; ++k) {
-      Line line;
-      for (int at = 0; at < row_length; ++at) line[at] = turned.corners[row[at]][lower[k]];
-      line[row_length] = turned.corners[row.back()][upper[k]];
-      const auto [found, is_new] = known.try_emplace(line, static_cast<int>(rows.nodes.size()));
+      const auto [found, is_new] = known.try_emplace(lines[k], static_cast<int>(rows.nodes.size()));
       if (is_new) {
-        rows.nodes.push_back(assembly.nodes[line.front()]);
-        rows.nodes.push_back(assembly.nodes[line.back()]);
+        rows.nodes.push_back(aligned.assembly.nodes[lines[k].front()]);
+        rows.nodes.push_back(aligned.assembly.nodes[lines[k].back()]);
       }
       corners[lower[k]] = found->second;
       corners[upper[k]] = found->second + 1;
@@ -119,7 +149,7 @@ void divide_sheet(const Assembly& rows, std::vector<int>& order, std::vector<int
   const BlockLimits limits{rows_of_block, 2 * lines_of_block};
   const int count = static_cast<int>(rows.elements.size());
   order.resize(count);
-  for (int k = 0; k < count; ++k) order[k] = k;
+  std::iota(order.begin(), order.end(), 0);
   std::vector<int> grown = order, first_grown;
   halve_into_blocks(rows, order, 0, count, first, limits);
   if (static_cast<int>(first.size()) * rows_of_block < count + rows_of_block) return;
@@ -133,23 +163,22 @@ void divide_sheet(const Assembly& rows, std::vector<int>& order, std::vector<int
 int gather_along_one(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
                      std::vector<int>& first) {
   const std::vector<int> element(elements.begin() + begin, elements.begin() + end);
-  std::vector<std::array<int, 8>> corners;
-  for (int e : element) corners.push_back(assembly.elements[e]);
-  TurnedElements turned;
+  TurnedElements turned = turned_elements(assembly.elements, element);
   Sheets best;
-  for (int direction = 0; direction < 3; ++direction) {
-    TurnedElements along = turned_elements(corners, static_cast<int>(assembly.nodes.size()), direction);
-    Sheets sheets = RowFinder(along).find();
+  int best_direction = 0;
+  for (int direction = 0; direction < 3 && best.rows * row_length < element.size(); ++direction) {
+    Sheets sheets = RowFinder(turned, direction).find();
     if (sheets.rows <= best.rows) continue;
     best = std::move(sheets);
-    turned = std::move(along);
-    if (best.rows * row_length == element.size()) break;
+    best_direction = direction;
   }
+  turned.next = {};  // the most that there is beside the mesh
+  const AlignedElements aligned{assembly, element, turned.turn, best_direction};
   std::vector<char> gathered(element.size(), 0);
   int next = begin;
   for (const Sheet& sheet : best.sheet) {
     std::vector<int> order, first_row;
-    divide_sheet(assembly_of_rows(assembly, turned, sheet), order, first_row);
+    divide_sheet(assembly_of_rows(aligned, sheet), order, first_row);
     for (int row : first_row) first.push_back(next + row_length * row);
     for (int row : order)
       for (int e : sheet[row]) {
@@ -166,6 +195,8 @@ int gather_along_one(const Assembly& assembly, std::vector<int>& elements, int b
 }  // namespace
 
 int gather_rows(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+  // Sides have numbers, see turned_elements().
+  if (end - begin > std::numeric_limits<int>::max() / element_sides) return begin;
   // What is left over may have rows along another direction.
   for (int from = begin;; begin = from) {
     from = gather_along_one(assembly, elements, begin, end, first);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
@@ -15,9 +15,9 @@ class Divider {
   Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end, const BlockLimits& limits)
       : assembly_(assembly),
         limits_(limits),
-        centre_(assembly.elements.size()),
-        extent_(assembly.elements.size()),
-        seen_(assembly.nodes.size(), -1) {
+        centre_(element_range(elements, begin, end), Vec3{}),
+        extent_(element_range(elements, begin, end), Vec3{}),
+        seen_(node_range(assembly.elements, elements, begin, end), -1) {
     for (int k = begin; k < end; ++k) {
       const int e = elements[k];
       Vec3 low = assembly.nodes[assembly.elements[e][0]], high = low;
@@ -109,8 +109,8 @@ class Divider {
 
   const Assembly& assembly_;
   const BlockLimits limits_;
-  std::vector<Vec3> centre_, extent_;
-  std::vector<int> seen_;
+  ValuesOfRange<Vec3> centre_, extent_;
+  ValuesOfRange<int> seen_;
   int stamp_ = 0;
 };
 

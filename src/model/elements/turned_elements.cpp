@@ -1,16 +1,17 @@
-#include "model/elements/edge_groups.hpp"
+#include "model/elements/turned_elements.hpp"
 
 #include <algorithm>
+#include <deque>
 
 #include "mesh/hexahedron.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
 
-using Corners = std::array<int, 8>;
 using Sides = std::array<int, element_sides>;
 
-/// Corners of an element's sides, and the corner behind each: which is the neighbour's corner there, where that is
+/// CornerNodes of an element's sides, and the corner behind each: which is the neighbour's corner there, where that is
 /// turned alike. The first and the third of a side lie across from each other.
 constexpr int side_corner[element_sides][4] = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4},
                                                {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -20,115 +21,150 @@ constexpr int side_behind[element_sides][4] = {{1, 2, 6, 5}, {0, 3, 7, 4}, {3, 2
 /// The ways to number an element's corners that keep it right-handed, by corner 0 and the edge that is xi.
 constexpr int turns = 24;
 
-std::array<Corners, turns> all_turns() {
-  // A corner's place as bits: whether it is above in xi, eta, zeta.
-  int place[8], corner_at[8];
-  for (int N = 0; N < 8; ++N) {
-    place[N] = 0;
-    for (int i = 0; i < 3; ++i) place[N] |= (hexahedron_corner_signs[N][i] > 0 ? 1 : 0) << i;
-    corner_at[place[N]] = N;
-  }
-  std::array<Corners, turns> all{};
-  for (int origin = 0; origin < 8; ++origin)
-    for (int first = 0; first < 3; ++first)
-      for (int N = 0; N < 8; ++N) {
-        int at = place[origin];
-        for (int i = 0; i < 3; ++i)
-          if ((place[N] >> i & 1) != 0)
-            at ^= place[origin] ^ place[hexahedron_corner_neighbours[origin][(first + i) % 3]];
-        all[3 * origin + first][N] = corner_at[at];
+struct Turns {
+  std::array<CornerNodes, turns> corner;  ///< of each turn: the elements' own corners, by corner as turned
+  int side[turns][element_sides];         ///< of each turn: the element's own sides, by side as turned
+  /// By side as turned: the turn by which own corners are the first two of side_behind.
+  std::uint8_t by_corners[element_sides][8][8];
+
+  Turns() {
+    // A corner's place as bits: whether it is above in xi, eta, zeta.
+    int place[8], corner_at[8];
+    for (int N = 0; N < 8; ++N) {
+      place[N] = 0;
+      for (int i = 0; i < 3; ++i) place[N] |= (hexahedron_corner_signs[N][i] > 0 ? 1 : 0) << i;
+      corner_at[place[N]] = N;
+    }
+    for (int origin = 0; origin < 8; ++origin)
+      for (int first = 0; first < 3; ++first)
+        for (int N = 0; N < 8; ++N) {
+          int at = place[origin];
+          for (int i = 0; i < 3; ++i)
+            if ((place[N] >> i & 1) != 0)
+              at ^= place[origin] ^ place[hexahedron_corner_neighbours[origin][(first + i) % 3]];
+          corner[3 * origin + first][N] = corner_at[at];
+        }
+    std::fill_n(&by_corners[0][0][0], sizeof(by_corners), std::uint8_t{0});
+    for (int turn = 0; turn < turns; ++turn)
+      for (int s = 0; s < element_sides; ++s) {
+        const CornerNodes& own = corner[turn];
+        by_corners[s][own[side_behind[s][0]]][own[side_behind[s][1]]] = static_cast<std::uint8_t>(turn);
+        for (int k = 0; k < element_sides; ++k) {
+          const auto has = [&](int N) {
+            return std::find(side_corner[k], side_corner[k] + 4, N) != side_corner[k] + 4;
+          };
+          if (has(own[side_corner[s][0]]) && has(own[side_corner[s][2]])) side[turn][s] = k;
+        }
       }
-  return all;
-}
-
-const std::array<Corners, turns>& turn_table() {
-  static const std::array<Corners, turns> all = all_turns();
-  return all;
-}
-
-Corners turned(const Corners& corners, int turn) {
-  Corners result;
-  for (int N = 0; N < 8; ++N) result[N] = corners[turn_table()[turn][N]];
-  return result;
-}
-
-int place_of(const Corners& corners, int node) {
-  return static_cast<int>(std::find(corners.begin(), corners.end(), node) - corners.begin());
-}
-
-/// Turns an element so that it is turned like the one that has this side in common with it.
-Corners turned_like(const Corners& corners, const Corners& neighbour, int side) {
-  int place[4];
-  for (int k = 0; k < 4; ++k) place[k] = place_of(corners, neighbour[side_corner[side][k]]);
-  for (int turn = 0; turn < turns; ++turn) {
-    const Corners& table = turn_table()[turn];
-    bool fits = true;
-    for (int k = 0; k < 4; ++k) fits = fits && table[side_behind[side][k]] == place[k];
-    if (fits) return turned(corners, turn);
   }
-  return corners;
+};
+
+const Turns& table() {
+  static const Turns all;
+  return all;
 }
 
-bool turned_alike(const Corners& a, const Corners& b, int side) {
+/// A side's nodes, in an order that is the same from both of its elements: the lowest, the one across from it, and the
+/// other two. Sides with the same nodes are the same.
+struct SideNodes {
+  int lowest, across, less, more;
+
+  SideNodes(const CornerNodes& corners, int side) {
+    const int* at = side_corner[side];
+    int k = 0;
+    for (int other = 1; other < 4; ++other)
+      if (corners[at[other]] < corners[at[k]]) k = other;
+    lowest = corners[at[k]];
+    across = corners[at[k ^ 2]];
+    less = corners[at[k ^ 1]];
+    more = corners[at[k ^ 3]];
+    if (less > more) std::swap(less, more);
+  }
+  bool operator==(const SideNodes& other) const {
+    return lowest == other.lowest && across == other.across && less == other.less && more == other.more;
+  }
+};
+
+/// The neighbours of each element by its own sides, as places in `elements`.
+std::vector<Sides> neighbours(const std::vector<CornerNodes>& mesh, const std::vector<int>& elements) {
+  const int count = static_cast<int>(elements.size());
+  std::vector<Sides> next(count);
+  // Sides whose neighbour was not met yet lie in lists by their lowest node. Until it is, the place of the neighbour
+  // holds the next side of the list, so that lists take no memory.
+  constexpr int none = -1;
+  ValuesOfRange<int> first(node_range(mesh, elements, 0, count), none);
+  const auto place = [&](int side) -> int& { return next[side / element_sides][side % element_sides]; };
+  for (int e = 0; e < count; ++e)
+    for (int s = 0; s < element_sides; ++s) {
+      const SideNodes nodes(mesh[elements[e]], s);
+      int* at = &first[nodes.lowest];
+      while (*at != none && !(*at / element_sides != e &&
+                              SideNodes(mesh[elements[*at / element_sides]], *at % element_sides) == nodes))
+        at = &place(*at);
+      const int met = *at;
+      if (met == none) {
+        next[e][s] = first[nodes.lowest];
+        first[nodes.lowest] = element_sides * e + s;
+        continue;
+      }
+      *at = place(met);
+      place(met) = e;
+      next[e][s] = met / element_sides;
+    }
+  // The outside.
+  for (int e = 0; e < count; ++e)
+    for (int n : mesh[elements[e]])
+      while (first[n] != none) {
+        int& side = place(first[n]);
+        first[n] = side;
+        side = no_element;
+      }
+  return next;
+}
+
+/// The turn by which an element is turned like the one that has this side in common with it; any, if none is.
+int turn_like(const CornerNodes& corners, const CornerNodes& neighbour, int side) {
+  const auto place_of = [&](int N) {
+    return std::find(corners.begin(), corners.end() - 1, neighbour[N]) - corners.begin();
+  };
+  return table().by_corners[side][place_of(side_corner[side][0])][place_of(side_corner[side][1])];
+}
+
+bool turned_alike(const CornerNodes& a, const CornerNodes& b, int side) {
   for (int k = 0; k < 4; ++k)
     if (a[side_corner[side][k]] != b[side_behind[side][k]]) return false;
   return true;
 }
 
-/// Elements around each node, as rows.
-struct Around {
-  std::vector<int> first, element;
-
-  Around(const std::vector<Corners>& elements, int nodes) : first(nodes + 1, 0), element(8 * elements.size()) {
-    for (const Corners& corners : elements)
-      for (int n : corners) ++first[n + 1];
-    for (int n = 0; n < nodes; ++n) first[n + 1] += first[n];
-    std::vector<int> filled(first.begin(), first.end() - 1);
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (int n : elements[e]) element[filled[n]++] = static_cast<int>(e);
-  }
-};
-
-/// The other element that has a side of one in common with it.
-int beside(const std::vector<Corners>& elements, const Around& around, int e, const Corners& corners, int side) {
-  const int n = corners[side_corner[side][0]];
-  for (int k = around.first[n]; k < around.first[n + 1]; ++k) {
-    const int other = around.element[k];
-    if (other == e) continue;
-    bool shared = true;
-    for (int c = 1; c < 4 && shared; ++c) shared = place_of(elements[other], corners[side_corner[side][c]]) < 8;
-    if (shared) return other;
-  }
-  return no_element;
-}
-
 }  // namespace
 
-TurnedElements turned_elements(const std::vector<Corners>& elements, int nodes, int direction) {
-  const Around around(elements, nodes);
+CornerNodes turned(const CornerNodes& corners, int turn) {
+  CornerNodes result;
+  for (int N = 0; N < 8; ++N) result[N] = corners[table().corner[turn][N]];
+  return result;
+}
+
+TurnedElements turned_elements(const std::vector<CornerNodes>& mesh, const std::vector<int>& elements) {
+  constexpr std::uint8_t not_yet = turns;
   const int count = static_cast<int>(elements.size());
-  Sides none;
-  none.fill(no_element);
-  TurnedElements result{elements, std::vector<Sides>(elements.size(), none)};
-  std::vector<char> seen(count, 0);
-  std::vector<int> queue;
+  TurnedElements result{std::vector<std::uint8_t>(count, not_yet), neighbours(mesh, elements)};
+  const auto as_turned = [&](int e) { return turned(mesh[elements[e]], result.turn[e]); };
+  std::deque<int> queue;
   for (int seed = 0; seed < count; ++seed) {
-    if (seen[seed] != 0) continue;
-    seen[seed] = 1;
-    result.corners[seed] = turned(elements[seed], direction);
-    queue.assign(1, seed);
-    for (std::size_t k = 0; k < queue.size(); ++k) {
-      const int e = queue[k];
-      const Corners& corners = result.corners[e];
+    if (result.turn[seed] != not_yet) continue;
+    result.turn[seed] = 0;
+    for (queue.push_back(seed); !queue.empty(); queue.pop_front()) {
+      const int e = queue.front();
+      const CornerNodes corners = as_turned(e);
+      const Sides own = result.next[e];
       for (int side = 0; side < element_sides; ++side) {
-        const int other = beside(elements, around, e, corners, side);
-        if (other == no_element) continue;
-        if (seen[other] == 0) {
-          seen[other] = 1;
-          result.corners[other] = turned_like(elements[other], corners, side);
+        const int other = own[table().side[result.turn[e]][side]];
+        if (other != no_element && result.turn[other] == not_yet) {
+          result.turn[other] = static_cast<std::uint8_t>(turn_like(mesh[elements[other]], corners, side));
           queue.push_back(other);
         }
-        if (turned_alike(corners, result.corners[other], side)) result.next[e][side] = other;
+        const bool alike = other != no_element && turned_alike(corners, as_turned(other), side);
+        result.next[e][side] = alike ? other : no_element;
       }
     }
   }

@@ -4,8 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "model/elements/turned_elements.hpp"
-
 namespace railwave {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/elements/block_order.hpp"
-#include "model/elements/turned_elements.hpp"
+#include "model/elements/edge_groups.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/elements/turned_elements.hpp"
+#include "model/elements/edge_groups.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -130,9 +130,12 @@ int turn_like(const CornerNodes& corners, const CornerNodes& neighbour, int side
   return table().by_corners[side][place_of(side_corner[side][0])][place_of(side_corner[side][1])];
 }
 
-bool turned_alike(const CornerNodes& a, const CornerNodes& b, int side) {
+/// @param corners of one element as turned
+/// @param other corners of the one at its side, and how it is turned
+bool turned_alike(const CornerNodes& corners, int side, const CornerNodes& other, int turn) {
+  const CornerNodes& own = table().corner[turn];
   for (int k = 0; k < 4; ++k)
-    if (a[side_corner[side][k]] != b[side_behind[side][k]]) return false;
+    if (corners[side_corner[side][k]] != other[own[side_behind[side][k]]]) return false;
   return true;
 }
 
@@ -148,23 +151,23 @@ TurnedElements turned_elements(const std::vector<CornerNodes>& mesh, const std::
   constexpr std::uint8_t not_yet = turns;
   const int count = static_cast<int>(elements.size());
   TurnedElements result{std::vector<std::uint8_t>(count, not_yet), neighbours(mesh, elements)};
-  const auto as_turned = [&](int e) { return turned(mesh[elements[e]], result.turn[e]); };
   std::deque<int> queue;
   for (int seed = 0; seed < count; ++seed) {
     if (result.turn[seed] != not_yet) continue;
     result.turn[seed] = 0;
     for (queue.push_back(seed); !queue.empty(); queue.pop_front()) {
       const int e = queue.front();
-      const CornerNodes corners = as_turned(e);
+      const CornerNodes corners = turned(mesh[elements[e]], result.turn[e]);
       const Sides own = result.next[e];
       for (int side = 0; side < element_sides; ++side) {
         const int other = own[table().side[result.turn[e]][side]];
-        if (other != no_element && result.turn[other] == not_yet) {
+        result.next[e][side] = no_element;
+        if (other == no_element) continue;
+        if (result.turn[other] == not_yet) {
           result.turn[other] = static_cast<std::uint8_t>(turn_like(mesh[elements[other]], corners, side));
           queue.push_back(other);
         }
-        const bool alike = other != no_element && turned_alike(corners, as_turned(other), side);
-        result.next[e][side] = alike ? other : no_element;
+        if (turned_alike(corners, side, mesh[elements[other]], result.turn[other])) result.next[e][side] = other;
       }
     }
   }

@@ -56,19 +56,15 @@ void put_together(const Assembly& assembly, std::vector<int>& elements, std::vec
   ValuesOfRange<int> place(element_range(elements, begin, end), 0);
   for (int k = begin; k < end; ++k) place[together[k]] = k;
   struct Block {
-    int middle, begin, end;
+    int place, begin, end;
   };
   std::vector<Block> blocks;
   for (std::size_t p = from; p < first.size(); ++p) {
-    Block block{0, first[p], p + 1 < first.size() ? first[p + 1] : end};
-    std::vector<int> places;
-    for (int k = block.begin; k < block.end; ++k) places.push_back(place[elements[k]]);
-    const auto middle = places.begin() + (block.end - block.begin) / 2;
-    std::nth_element(places.begin(), middle, places.end());
-    block.middle = *middle;
+    Block block{end, first[p], p + 1 < first.size() ? first[p + 1] : end};
+    for (int k = block.begin; k < block.end; ++k) block.place = std::min(block.place, place[elements[k]]);
     blocks.push_back(block);
   }
-  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.middle < b.middle; });
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.place < b.place; });
   first.resize(from);
   int next = begin;
   for (const Block& block : blocks) {

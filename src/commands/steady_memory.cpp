@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t of_libraries = std::size_t{16} << 20;  ///< bytes: many times what they take to begin
 std::atomic<bool> begun{false};
-char** first_environment = nullptr;  ///< before libraries begin getenv() finds nothing
+char** first_environment = nullptr;    ///< before libraries begin getenv() finds nothing
 constexpr int of_own_pages = 1 << 20;  ///< bytes
 constexpr std::size_t of_stack = std::size_t{1} << 20;
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
-#include <cmath>
 #include <numeric>
 #include <random>
 #include <set>
@@ -218,28 +217,4 @@ TEST_CASE("blocks keep to their level where rows are and where they are not wort
   for (std::size_t p = 0; p < order.level.size(); ++p)
     found[order.level[p]] += order.first_element[p + 1] - order.first_element[p];
   CHECK(found == expected);
-}
-
-TEST_CASE("blocks that have nodes in common follow each other soon, also where rows and what is left of them meet") {
-  Assembly assembly = wheel();
-  Assembly::PartRange& part = assembly.parts.emplace_back();
-  part.element_count = static_cast<int>(assembly.elements.size());
-  part.node_count = static_cast<int>(assembly.nodes.size());
-  const BlockOrder order = order_in_blocks(assembly, {}, true);
-  const int blocks = static_cast<int>(order.first_element.size()) - 1;
-  std::vector<int> first(assembly.nodes.size(), blocks), last(assembly.nodes.size(), -1);
-  for (int p = 0; p < blocks; ++p)
-    for (int e = order.first_element[p]; e < order.first_element[p + 1]; ++e)
-      for (int n : assembly.elements[e]) {
-        first[n] = std::min(first[n], p);
-        last[n] = p;
-      }
-  double apart = 0, shared = 0;
-  for (std::size_t n = 0; n < first.size(); ++n) {
-    if (last[n] <= first[n]) continue;
-    apart += last[n] - first[n];
-    ++shared;
-  }
-  // 23 of 370; as they are found 65.
-  CHECK(apart / shared < 0.1 * blocks);
 }

@@ -46,34 +46,6 @@ double node_count(const Assembly& assembly, const std::vector<int>& elements, co
   return count;
 }
 
-/// Orders the blocks from first[from] on as halving orders the middle one of their elements: sheets of rows, and what
-/// is left of them, come one after the other, and blocks that have nodes in common would be far apart.
-void put_together(const Assembly& assembly, std::vector<int>& elements, std::vector<int>& first, std::size_t from,
-                  int end) {
-  const int begin = first[from];
-  std::vector<int> together = elements, halved_first;
-  halve_into_blocks(assembly, together, begin, end, halved_first);
-  ValuesOfRange<int> place(element_range(elements, begin, end), 0);
-  for (int k = begin; k < end; ++k) place[together[k]] = k;
-  struct Block {
-    int place, begin, end;
-  };
-  std::vector<Block> blocks;
-  for (std::size_t p = from; p < first.size(); ++p) {
-    Block block{end, first[p], p + 1 < first.size() ? first[p + 1] : end};
-    for (int k = block.begin; k < block.end; ++k) block.place = std::min(block.place, place[elements[k]]);
-    blocks.push_back(block);
-  }
-  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.place < b.place; });
-  first.resize(from);
-  int next = begin;
-  for (const Block& block : blocks) {
-    first.push_back(next);
-    for (int k = block.begin; k < block.end; ++k) together[next++] = elements[k];
-  }
-  std::copy(together.begin() + begin, together.begin() + end, elements.begin() + begin);
-}
-
 /// The same with as many elements as possible in rows.
 /// @param elements ascending from begin to end
 void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
@@ -81,21 +53,17 @@ void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int 
   const std::size_t from = first.size();
   const int left = gather_rows(assembly, elements, begin, end, first);
   if (left < end) divide_into_blocks(assembly, elements, left, end, first);
-  if (left == begin) return;
+  if (left == begin || left == end) return;
   // What rows are worth, in nodes. Blocks without are found only where they can have so few.
   const double as_good = node_count(assembly, elements, first, from, end) - worth_of_row * (left - begin);
-  if (left < end && fewest_nodes_of_element * (end - begin) <= as_good) {
-    std::vector<int> plain = elements, first_plain(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(from));
-    std::sort(plain.begin() + begin, plain.begin() + end);
-    divide_into_blocks(assembly, plain, begin, end, first_plain);
-    if (node_count(assembly, plain, first_plain, from, end) <= as_good) {
-      // In place, for the caller has iterators.
-      std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
-      first = std::move(first_plain);
-      return;
-    }
-  }
-  put_together(assembly, elements, first, from, end);
+  if (fewest_nodes_of_element * (end - begin) > as_good) return;
+  std::vector<int> plain = elements, first_plain(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(from));
+  std::sort(plain.begin() + begin, plain.begin() + end);
+  divide_into_blocks(assembly, plain, begin, end, first_plain);
+  if (node_count(assembly, plain, first_plain, from, end) > as_good) return;
+  // In place, for the caller has iterators.
+  std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
+  first = std::move(first_plain);
 }
 
 /// New number of each node.

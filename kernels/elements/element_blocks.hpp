@@ -13,26 +13,30 @@ namespace railwave {
 inline constexpr int elements_of_block = 128;
 /// Rooms for a block's nodes are multiples of this.
 inline constexpr int node_room = 16;
-/// A team's scratch memory holds ten values of each node and where its corner forces lie, the corner forces, a value of
-/// each element, and what Kokkos keeps there: 48 KiB at most, which any GPU has. A byte numbers them.
+/// A team's scratch memory holds nine values and the number of each node, the corner forces and where they lie, a value
+/// of each element, and what Kokkos keeps there: 48 KiB at most, which any GPU has. A byte numbers the nodes.
 inline constexpr int nodes_of_block = 240;
-static_assert((nodes_of_block + node_room - 1) / node_room * node_room * (10 * 8 + 2) +
-                      8 * (3 * 8 + 1) * elements_of_block + 2 * 8 * (elements_of_block + 2) +
-                      8 * (elements_of_block + 2) + 128 <=
-                  48 * 1024,
-              "the scratch memory of a team is too small");
 /// A block's node that no other block touches and no load, contact or constraint concerns can be advanced by the
 /// block's own team: its number in the block's list then carries this bit.
 inline constexpr int advance_bit = static_cast<int>(0x80000000u);
-/// Corner forces lie in scratch memory component by component; one place after them holds a zero, for the packs of a
-/// host.
-inline constexpr int component_stride = 8 * elements_of_block + (on_device ? 0 : 16),
+/// Corner forces lie in scratch memory component by component; one place after them holds a zero, for nodes where fewer
+/// corners meet than are added up at once.
+inline constexpr int component_stride = 8 * elements_of_block + (on_device ? 2 : 16),
                      zero_place = 8 * elements_of_block;
 /// The power that hourglass control dissipates is added up in so many parts of a block.
 inline constexpr int power_sums = 16;
 
-/// Where a group of values that a thread reads at once begins and how long it is: 16 bytes of place numbers.
+/// Place numbers in 16 bytes, which a thread reads at once.
 inline constexpr int places_at_once = 8;
+/// So many corner forces of a node are added up at once by a thread of a device.
+inline constexpr int corners_at_once = 4;
+/// Each node has at least one corner, and its last few may have fewer than are added up at once.
+inline constexpr int most_places = 8 * elements_of_block + (corners_at_once - 1) * nodes_of_block;
+static_assert(nodes_of_block % node_room == 0 && nodes_of_block * (9 * 8 + 4) +
+                                                         8 * (3 * component_stride + elements_of_block) +
+                                                         2 * most_places + 8 * (elements_of_block + 2) + 6 * 16 <=
+                                                     48 * 1024,
+              "the scratch memory of a team is too small");
 
 /// So many elements, of consecutive slots, are a group of a host's, whatever the lanes of a pack there: results are the
 /// same then on any processor.
@@ -61,19 +65,18 @@ struct BlockFrame {
 struct ElementBlocks {
   int count = 0;
   int node_stride = 0;   ///< room for the nodes of any block, a multiple of the pack width
-  int pack_stride = 0;   ///< room for first_place
+  int first_stride = 0;  ///< room for first_place
   int place_stride = 0;  ///< room for the corner places
   Array<int*> element_count;
   Array<int*> node_count;
   Array<int*> material;        ///< row of the constants
-  Array<int*> node;            ///< node_stride for each block: model node numbers, by how many corners meet there;
-                               ///< filled up with the block's first
+  Array<int*> node;            ///< node_stride for each block: model node numbers, by how many corners meet there (see
+                               ///< block_nodes.hpp); filled up with the block's first
   Array<int* [3]> frame_node;  ///< three of a block's nodes (model numbers) that span a plane
   Array<double * [BlockFrame::values]> frame;  ///< empty in double precision
   Array<std::uint8_t*> corner;                 ///< by batch: eight places in the block's nodes, corner by corner
-  Array<std::uint16_t*> first_place;  ///< pack_stride for each block, by pack of nodes: where its corner places begin
-  Array<std::uint16_t*> place;  ///< place_stride for each block: the corner forces that meet at a pack's nodes, its
-                                ///< lanes together
+  Array<std::uint16_t*> first_place;           ///< first_stride for each block, see CornerSums
+  Array<std::uint16_t*> place;  ///< place_stride for each block: where the corner forces lie that meet at its nodes
   /// On a host in double precision: an edge group are the edges at the same place in the elements of a group, for the
   /// four places along one of the elements' directions. Groups of elements that are neighbours share them. A block for
   /// whose elements that spares little has none.
@@ -132,6 +135,27 @@ KOKKOS_FORCEINLINE_FUNCTION void corner_modes(const S* component, const BatchCor
   modes_of(u, m);
 }
 
+/// The two of a block's nodes that a thread of a device brings, and whose forces it adds up: what the second asks of
+/// memory is under way while the first waits.
+struct NodePair {
+  int place[2];   ///< in the block's list; those of threads beyond its room are again the last
+  int number[2];  ///< as the list has them
+
+  template <class Member>
+  KOKKOS_FORCEINLINE_FUNCTION NodePair(const Member& team, const ElementBlocks& blocks, int p) {
+    static_assert(nodes_of_block <= 2 * elements_of_block, "a thread brings two nodes");
+    const int last = blocks.node_stride - 1;
+    const int* numbers = blocks.node.data() + static_cast<long>(p) * blocks.node_stride;
+    for (int k = 0; k < 2; ++k) {
+      const int l = team.team_rank() + k * team.team_size();
+      place[k] = l < last ? l : last;
+    }
+    for (int k = 0; k < 2; ++k) number[k] = numbers[place[k]];
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION int node(int k) const { return number[k] & ~advance_bit; }
+};
+
 /// A block's nodes in scratch memory, component by component.
 /// @tparam Nodes what moves them: NodeAdvance, or RelativeAdvance where nodes are in single precision
 /// (relative_blocks.hpp)
@@ -140,19 +164,19 @@ struct StagedNodes {
   S* position;           ///< m; in single precision from the frame's point
   S* displacement;       ///< m, from the reference, in single precision from the frame's rigid motion
   S* velocity;           ///< m/s
-  double* inverse_mass;  ///< 1/kg
+  double* inverse_mass;  ///< 1/kg, on a host; a device has no room for it
   double* frame;         ///< of BlockFrame, in single precision
   int stride;
-  static constexpr bool in_single = sizeof(S) < sizeof(double);
+  static constexpr bool in_single = sizeof(S) < sizeof(double), mass_staged = WithMass && !on_device;
 
   static std::size_t scratch_size(int stride) {
-    return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) +
+    return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (mass_staged ? sizeof(double) * stride : 0) +
            (in_single ? sizeof(double) * BlockFrame::values : 0) + 3 * scratch_alignment;
   }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION StagedNodes(const Member& team, int stride_) : stride(stride_) {
-    inverse_mass = WithMass ? scratch_values<double>(team, stride) : nullptr;
+    inverse_mass = mass_staged ? scratch_values<double>(team, stride) : nullptr;
     frame = in_single ? scratch_values<double>(team, BlockFrame::values) : nullptr;
     position = scratch_values<S>(team, (WithVelocity ? 9u : 6u) * stride);
     displacement = position + 3 * stride;
@@ -162,23 +186,31 @@ struct StagedNodes {
   template <class Member>
   KOKKOS_INLINE_FUNCTION void bring(const Member& team, const ElementBlocks& blocks, int p,
                                     const NodeArrays& nodes) const {
-    if constexpr (in_single)
-      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, BlockFrame::values),
-                           [&](const int k) { frame[k] = blocks.frame(p, k); });
-    const int* number = blocks.node.data() + static_cast<long>(p) * stride;
     if constexpr (on_device) {
-      // Two nodes at a time: what the second asks of memory is under way while the first waits.
-      static_assert(nodes_of_block <= 2 * elements_of_block, "a thread brings two nodes");
-      // Threads beyond the last node bring that one again.
-      const int last = stride - 1, l = team.team_rank() < last ? team.team_rank() : last;
-      const int m = l + team.team_size() < last ? l + team.team_size() : last;
-      const Fetched first(nodes, number[l] & ~advance_bit), second(nodes, number[m] & ~advance_bit);
-      if constexpr (in_single) team.team_barrier();
-      put(l, first);
-      put(m, second);
+      bring_pair(team, NodePair(team, blocks, p), blocks, p, nodes, [] {});
     } else {
+      if constexpr (in_single) bring_frame(team, blocks, p);
+      const int* number = blocks.node.data() + static_cast<long>(p) * stride;
       for (int l = 0; l < stride; ++l) put(l, Fetched(nodes, number[l] & ~advance_bit));
     }
+  }
+
+  /// @param meanwhile done when memory has been asked for the nodes
+  template <class Member, class Meanwhile>
+  KOKKOS_FORCEINLINE_FUNCTION void bring_pair(const Member& team, const NodePair& pair, const ElementBlocks& blocks,
+                                              int p, const NodeArrays& nodes, const Meanwhile& meanwhile) const {
+    if constexpr (in_single) bring_frame(team, blocks, p);
+    const Fetched first(nodes, pair.node(0)), second(nodes, pair.node(1));
+    meanwhile();
+    if constexpr (in_single) team.team_barrier();
+    put(pair.place[0], first);
+    put(pair.place[1], second);
+  }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void bring_frame(const Member& team, const ElementBlocks& blocks, int p) const {
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, BlockFrame::values),
+                         [&](const int k) { frame[k] = blocks.frame(p, k); });
   }
 
   /// The turn that displacements leave out, in single precision.
@@ -193,7 +225,7 @@ struct StagedNodes {
     KOKKOS_FORCEINLINE_FUNCTION Fetched(const NodeArrays& nodes, int n)
         : now(row(nodes.position, n)), before(row(nodes.reference, n)) {
       if constexpr (WithVelocity) velocity = row(nodes.velocity, n);
-      if constexpr (WithMass) mass = nodes.mass(n);
+      if constexpr (mass_staged) mass = nodes.mass(n);
     }
   };
 
@@ -201,7 +233,7 @@ struct StagedNodes {
     Vector3 now = node.now, before = node.before;
     if constexpr (WithVelocity)
       for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(node.velocity[i]);
-    if constexpr (WithMass) inverse_mass[l] = 1.0 / node.mass;
+    if constexpr (mass_staged) inverse_mass[l] = 1.0 / node.mass;
     if constexpr (in_single) {
       const BlockFrame motion{frame};
       for (int i = 0; i < 3; ++i) now[i] -= motion.now(i);
@@ -213,10 +245,16 @@ struct StagedNodes {
     }
   }
 
+  /// What a node's motion needs that is not staged, kg: asked of memory before forces are added up, it comes meanwhile.
+  KOKKOS_FORCEINLINE_FUNCTION static double missing(const NodeArrays& nodes, int n) {
+    return WithMass && !mass_staged ? nodes.mass(n) : 0;
+  }
+
   /// Moves a node under a force, N; what is staged in full precision need not be fetched again.
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int /*p*/, int n, int l,
-                                           const Vector3& force) const {
-    const Vector3 a = nodes.acceleration(inverse_mass[l], force);
+  /// @param mass of missing()
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int /*p*/, int n, int l, const Vector3& force,
+                                           double mass) const {
+    const Vector3 a = nodes.acceleration(mass_staged ? inverse_mass[l] : 1.0 / mass, force);
     if constexpr (!in_single && WithVelocity)
       nodes.move(n, a, {{position[l], position[stride + l], position[2 * stride + l]}},
                  {{velocity[l], velocity[stride + l], velocity[2 * stride + l]}});

@@ -68,7 +68,7 @@ struct BlockDamping {
     const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
     staged.bring(team, blocks, p, nodes.nodes);
-    if constexpr (!on_device)
+    if (team.team_rank() == 0)
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
     team.team_barrier();
     const DampingConstants constants = damping.constants(blocks.material(p));
@@ -76,11 +76,12 @@ struct BlockDamping {
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches),
                          [&](const int b) { batch_force(p, b, constants, staged, force); });
     team.team_barrier();
-    const int packs = (blocks.node_count(p) + lane_count<S> - 1) / lane_count<S>;
+    const CornerSums sums(blocks, p, blocks.node_count(p));
+    const int packs = (sums.count + lane_count<S> - 1) / lane_count<S>;
     double dissipated = 0;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, packs), [&](const int k, double& sum) { sum += hand_over(p, k, staged, force); },
-        dissipated);
+        Kokkos::TeamThreadRange(team, packs),
+        [&](const int k, double& sum) { sum += hand_over(p, k, sums, staged, force); }, dissipated);
     Kokkos::single(Kokkos::PerTeam(team), [&]() { damping.energy(p) += dissipated; });
   }
 
@@ -116,17 +117,15 @@ struct BlockDamping {
   }
 
   /// Sums the corners at a pack of nodes; returns what they have dissipated since the instant before, J.
-  KOKKOS_INLINE_FUNCTION double hand_over(const int p, const int k, const Staged& staged, const S* force) const {
+  KOKKOS_INLINE_FUNCTION double hand_over(const int p, const int k, const CornerSums& sums, const Staged& staged,
+                                          const S* force) const {
     constexpr int lanes = lane_count<S>;
-    const std::uint16_t* first_place = blocks.first_place.data() + static_cast<long>(p) * blocks.pack_stride;
-    const std::uint16_t* place = blocks.place.data() + static_cast<long>(p) * blocks.place_stride;
-    T sum[3] = {S(0), S(0), S(0)};
-    for (int c = first_place[k]; c < first_place[k + 1]; c += lanes)
-      for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, place + c);
+    T sum[3];
+    sums.add_up(k, force, sum);
     S lane_sum[3][lanes];
     for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
     double dissipated = 0;
-    for (int lane = 0; lane < lanes && k * lanes + lane < blocks.node_count(p); ++lane) {
+    for (int lane = 0; lane < lanes && k * lanes + lane < sums.count; ++lane) {
       const int l = k * lanes + lane, at = p * blocks.node_stride + l;
       const Vector3 v = velocity_of(staged, nodes.nodes, p, blocks.node(at) & ~advance_bit, l);
       const double drag = damping.node_drag(at);

@@ -2,8 +2,8 @@
 
 #include <type_traits>
 
+#include "kernels/elements/corner_sums.hpp"
 #include "kernels/elements/edge_records.hpp"
-#include "kernels/elements/element_blocks.hpp"
 #include "kernels/elements/hourglass.hpp"
 #include "kernels/materials/elastic.hpp"
 
@@ -70,7 +70,10 @@ struct ElementForce {
              scratch_alignment;
 #endif
     return Staged::scratch_size(blocks.node_stride) + sizeof(S) * (3u * component_stride + elements_of_block) +
-           4 * scratch_alignment + (on_device ? sizeof(std::uint16_t) * (blocks.pack_stride + blocks.place_stride) : 0);
+           2 * scratch_alignment +
+           (on_device
+                ? sizeof(int) * blocks.node_stride + sizeof(std::uint16_t) * blocks.place_stride + 2 * scratch_alignment
+                : 0);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
@@ -90,18 +93,25 @@ struct ElementForce {
     const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, elements_of_block);
-    const int elements = blocks.element_count(p);
+    const int elements = blocks.element_count(p), count = blocks.node_count(p);
     const auto constants = material.template of_block<S>(blocks.material(p), Staged::turn(blocks, p, nodes.nodes));
-    const SumLists lists = sum_lists(team, p);
     if constexpr (on_device) {
-      // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
+      // One element a thread, and two nodes. What is asked of memory waits for nothing but node numbers; what the
+      // nodes' sums and motion need is kept in scratch memory, as registers are short.
+      int* number = scratch_values<int>(team, blocks.node_stride);
+      auto* places = scratch_values<std::uint16_t>(team, blocks.place_stride);
       const int e = team.team_rank();
+      const NodePair pair(team, blocks, p);
       const BatchCorners<S> corners = corners_of_batch(p, e);
       const T scale = hourglass_scales(p, e);
-      staged.bring(team, blocks, p, nodes.nodes);
+      const PlacesOnTheWay on_the_way(team, blocks, p);
+      staged.bring_pair(team, pair, blocks, p, nodes.nodes, [&] { on_the_way.put(places); });
+      for (int k = 0; k < 2; ++k) number[pair.place[k]] = pair.number[k];
+      if (e < 3) force[e * component_stride + zero_place] = 0;
       team.team_barrier();
       if (e < elements) batch_force(p, e, StagedBatch<S, Staged>{staged, corners, force + e}, scale, constants, power);
       team.team_barrier();
+      hand_over_pair(team, p, CornerSums(blocks, p, count, places), number, staged, force);
     } else {
       staged.bring(team, blocks, p, nodes.nodes);
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
@@ -110,8 +120,9 @@ struct ElementForce {
         batch_force(p, b, StagedBatch<S, Staged>{staged, corners, force + b * lane_count<S>}, hourglass_scales(p, b),
                     constants, power);
       }
+      const CornerSums sums(blocks, p, count);
+      for (int k = 0; k * lane_count<S> < count; ++k) hand_over_pack(p, k, sums, staged, force);
     }
-    sum_corners(team, p, lists, staged, force);
     add_power(team, p, elements, power);
   }
 
@@ -214,28 +225,6 @@ struct ElementForce {
     return BatchCorners<S>(blocks.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
   }
 
-  /// Where the corner forces lie that meet at each pack of nodes.
-  struct SumLists {
-    const std::uint16_t* first_place;
-    const std::uint16_t* place;
-  };
-
-  /// On a device in scratch memory: with the nodes they come in while there is time.
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION SumLists sum_lists(const Member& team, const int p) const {
-    const SumLists lists{blocks.first_place.data() + static_cast<long>(p) * blocks.pack_stride,
-                         blocks.place.data() + static_cast<long>(p) * blocks.place_stride};
-    if constexpr (!on_device) return lists;
-    auto* copy = scratch_values<std::uint16_t>(team, blocks.pack_stride + blocks.place_stride);
-    const int first_chunks = blocks.pack_stride / places_at_once, chunks = blocks.place_stride / places_at_once;
-    auto* to = reinterpret_cast<Chunk*>(copy);
-    const auto* first = reinterpret_cast<const Chunk*>(lists.first_place);
-    const auto* place = reinterpret_cast<const Chunk*>(lists.place);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first_chunks + chunks),
-                         [&](const int c) { to[c] = c < first_chunks ? first[c] : place[c - first_chunks]; });
-    return {copy, copy + blocks.pack_stride};
-  }
-
   /// @param batch its corners: StagedBatch or NodeRecords::Batch
   /// @param power_of_slot dissipated by hourglass control, W
   template <class Batch, class Constants>
@@ -303,34 +292,48 @@ struct ElementForce {
 #endif
   }
 
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const SumLists& lists, const Staged& staged,
-                                          const S* force) const {
+  KOKKOS_INLINE_FUNCTION void hand_over_pack(const int p, const int k, const CornerSums& sums, const Staged& staged,
+                                             const S* force) const {
     constexpr int lanes = lane_count<S>;
-    const int count = blocks.node_count(p);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, (count + lanes - 1) / lanes), [&](const int k) {
-      const int end = lists.first_place[k + 1];
-      T sum[3] = {S(0), S(0), S(0)};
-      for (int c = lists.first_place[k]; c < end; c += lanes)
-        for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, lists.place + c);
-      S lane_sum[3][lanes];
-      for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
-      for (int lane = 0; lane < lanes && k * lanes + lane < count; ++lane)
-        hand_over(p, k * lanes + lane, staged, {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}});
-    });
+    T sum[3];
+    sums.add_up(k, force, sum);
+    S lane_sum[3][lanes];
+    for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
+    for (int lane = 0; lane < lanes && k * lanes + lane < sums.count; ++lane) {
+      const int l = k * lanes + lane;
+      hand_over(p, l, blocks.node(p * blocks.node_stride + l), staged,
+                {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}}, 0);
+    }
   }
 
-  KOKKOS_INLINE_FUNCTION void hand_over(const int p, const int l, const Staged& staged, const Vector3& force) const {
-    const int place = p * blocks.node_stride + l;
-    if constexpr (Advance) {
-      const int n = blocks.node(place);
-      if (n < 0) {
-        staged.advance(nodes, p, n & ~advance_bit, l, force);
-        return;
-      }
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void hand_over_pair(const Member& team, const int p, const CornerSums& sums, const int* number,
+                                             const Staged& staged, const S* force) const {
+    int l[2], n[2];
+    bool there[2];
+    double missing[2];
+    for (int k = 0; k < 2; ++k) {
+      l[k] = team.team_rank() + k * team.team_size();
+      there[k] = l[k] < sums.count;
+      n[k] = there[k] ? number[l[k]] : 0;
+      missing[k] = Advance && n[k] < 0 ? Staged::missing(nodes.nodes, n[k] & ~advance_bit) : 0;
     }
-    partial(first_partial +
-            place) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
+    S sum[2][3];
+    sums.add_up_pair(l, there, force, sum);
+    for (int k = 0; k < 2; ++k)
+      if (there[k]) hand_over(p, l[k], n[k], staged, {{sum[k][0], sum[k][1], sum[k][2]}}, missing[k]);
+  }
+
+  /// @param n the node, as the block's list has it
+  /// @param missing see StagedNodes
+  KOKKOS_INLINE_FUNCTION void hand_over(const int p, const int l, const int n, const Staged& staged,
+                                        const Vector3& force, const double missing) const {
+    if (Advance && n < 0) {
+      staged.advance(nodes, p, n & ~advance_bit, l, force, missing);
+      return;
+    }
+    partial(first_partial + p * blocks.node_stride +
+            l) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
   }
 };
 

@@ -30,7 +30,7 @@ struct StagedNodes<float, WithVelocity, WithMass, RelativeAdvance> {
   /// The turn that displacements leave out.
   KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const ElementBlocks& /*blocks*/, int p,
                                                                 const RelativeArrays& nodes) {
-    return nodes.frame(nodes.arm(p).frame).turn;
+    return frame_of(nodes, p).turn;
   }
 
   struct Fetched {
@@ -46,20 +46,31 @@ struct StagedNodes<float, WithVelocity, WithMass, RelativeAdvance> {
   template <class Member>
   KOKKOS_INLINE_FUNCTION void bring(const Member& team, const ElementBlocks& blocks, int p,
                                     const RelativeArrays& nodes) const {
-    const int* number = blocks.node.data() + static_cast<long>(p) * stride;
-    const float* local = nodes.local.data() + static_cast<long>(p) * 3 * stride;
-    const FrameStep& frame = nodes.frame(nodes.arm(p).frame);
-    if constexpr (on_device) {
-      // Two nodes at a time: see the staging of nodes in double precision.
-      const int last = stride - 1, l = team.team_rank() < last ? team.team_rank() : last;
-      const int m = l + team.team_size() < last ? l + team.team_size() : last;
-      const Fetched first(nodes, number[l] & ~advance_bit, local, stride, l),
-          second(nodes, number[m] & ~advance_bit, local, stride, m);
-      put(l, first, frame);
-      put(m, second, frame);
-    } else {
-      put_all(number, local, nodes, frame);
-    }
+    if constexpr (on_device)
+      bring_pair(team, NodePair(team, blocks, p), blocks, p, nodes, [] {});
+    else
+      put_all(blocks.node.data() + static_cast<long>(p) * stride, locals(nodes, p), nodes, frame_of(nodes, p));
+  }
+
+  /// See StagedNodes in double precision.
+  template <class Member, class Meanwhile>
+  KOKKOS_FORCEINLINE_FUNCTION void bring_pair(const Member& /*team*/, const NodePair& pair,
+                                              const ElementBlocks& /*blocks*/, int p, const RelativeArrays& nodes,
+                                              const Meanwhile& meanwhile) const {
+    const float* local = locals(nodes, p);
+    const FrameStep& frame = frame_of(nodes, p);
+    const Fetched first(nodes, pair.node(0), local, stride, pair.place[0]),
+        second(nodes, pair.node(1), local, stride, pair.place[1]);
+    meanwhile();
+    put(pair.place[0], first, frame);
+    put(pair.place[1], second, frame);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION const float* locals(const RelativeArrays& nodes, int p) const {
+    return nodes.local.data() + static_cast<long>(p) * 3 * stride;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static const FrameStep& frame_of(const RelativeArrays& nodes, int p) {
+    return nodes.frame(nodes.arm(p).frame);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void put(int l, const Fetched& fetched, const FrameStep& frame) const {
@@ -102,9 +113,12 @@ struct StagedNodes<float, WithVelocity, WithMass, RelativeAdvance> {
     }
   }
 
+  /// Nothing: masses are staged.
+  KOKKOS_FORCEINLINE_FUNCTION static double missing(const RelativeArrays& /*nodes*/, int /*n*/) { return 0; }
+
   /// Moves a node under a force, N.
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const RelativeAdvance& nodes, int p, int n, int l,
-                                           const Vector3& force) const {
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const RelativeAdvance& nodes, int p, int n, int l, const Vector3& force,
+                                           double /*missing*/) const {
     const FrameArm origin = nodes.nodes.arm(p);
     const FrameStep& frame = nodes.nodes.frame(origin.frame);
     float a[3], arm[3];
@@ -144,7 +158,7 @@ struct RelativeBlockUpdate {
       const int place = p * blocks.node_stride + l, n = blocks.node(place);
       if (n >= 0) return;
       const PartialForce<float> f = partial(first_partial + place);
-      staged.advance(nodes, p, n & ~advance_bit, l, {{f.x[0], f.x[1], f.x[2]}});
+      staged.advance(nodes, p, n & ~advance_bit, l, {{f.x[0], f.x[1], f.x[2]}}, 0);
     });
   }
 };

@@ -7,6 +7,7 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/elements/block_nodes.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
 
@@ -115,28 +116,61 @@ std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int
   return {a, b, c};
 }
 
-/// A block's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and
-/// in the mesh's own order among those, which lies well in memory.
-std::vector<int> local_nodes(const Assembly& assembly, const BlockOrder& order, int first, int end) {
+/// The nodes of elements [first, end), in the order in which their block has them.
+/// @param banks see order_for_warps
+std::vector<int> local_nodes(const Assembly& assembly, const BlockOrder& order, int first, int end, int banks) {
   std::vector<int> all;
   for (int e = first; e < end; ++e) all.insert(all.end(), assembly.elements[e].begin(), assembly.elements[e].end());
   std::sort(all.begin(), all.end());
-  std::vector<std::array<int, 3>> nodes;  // corners, number in the mesh, number
-  for (std::size_t k = 0; k < all.size();) {
-    std::size_t same = k;
-    while (same < all.size() && all[same] == all[k]) ++same;
-    nodes.push_back({static_cast<int>(same - k), order.mesh_number[all[k]], all[k]});
-    k = same;
+  std::vector<BlockNode> nodes;
+  for (int n : all) {
+    if (nodes.empty() || nodes.back().number != n) nodes.push_back({0, order.mesh_number[n], n});
+    ++nodes.back().corners;
   }
-  std::sort(nodes.begin(), nodes.end());
+  if (on_device) {
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<std::array<int, 8>> elements(assembly.elements.begin() + first, assembly.elements.begin() + end);
+    for (auto& corners : elements)
+      for (int& n : corners) n = static_cast<int>(std::lower_bound(all.begin(), all.end(), n) - all.begin());
+    order_for_warps(elements, banks, nodes);
+  } else {
+    order_for_packs(nodes);
+  }
   std::vector<int> result;
-  for (const auto& node : nodes) result.push_back(node[2]);
+  for (const BlockNode& node : nodes) result.push_back(node.number);
   return result;
 }
 
-/// Appends the block of elements [first, end).
-void append_block(const Assembly& assembly, const BlockOrder& order, int first, int end, BlockLists& lists) {
-  const std::vector<int> nodes = local_nodes(assembly, order, first, end);
+/// Nodes of blocks one after the other: threads find those of so many blocks at a time.
+class NodesOfBlocks {
+ public:
+  NodesOfBlocks(const Assembly& assembly, const BlockOrder& order, const std::vector<int>& blocks, bool single)
+      : assembly_(assembly), order_(order), blocks_(blocks), banks_(single ? 32 : 16) {}
+
+  std::vector<int> next() {
+    constexpr std::size_t at_once = 1 << 10;
+    if (next_ == found_.size()) {
+      found_.resize(std::min(at_once, blocks_.size() - first_));
+      on_host_threads(static_cast<int>(found_.size()), [&](int k) {
+        const int p = blocks_[first_ + k];
+        found_[k] = local_nodes(assembly_, order_, order_.first_element[p], order_.first_element[p + 1], banks_);
+      });
+      first_ += found_.size();
+      next_ = 0;
+    }
+    return std::move(found_[next_++]);
+  }
+
+ private:
+  const Assembly& assembly_;
+  const BlockOrder& order_;
+  const std::vector<int>& blocks_;
+  const int banks_;
+  std::vector<std::vector<int>> found_;
+  std::size_t first_ = 0, next_ = 0;
+};
+
+void append_block(const Assembly& assembly, const std::vector<int>& nodes, BlockLists& lists) {
   lists.frame_node.push_back(frame_nodes(assembly.nodes, nodes));
   lists.node_count.push_back(static_cast<int>(nodes.size()));
   lists.node.insert(lists.node.end(), nodes.begin(), nodes.end());
@@ -228,7 +262,9 @@ void build_blocks(const AssembledScene& assembled, const AbsorbingLayers& absorb
   std::size_t part = 0;
   std::map<std::array<int, 3>, std::array<int, 2>>
       rows_of;  // by level, part and damping: group, and row of constants in it
-  for (const int p : blocks_by_level(elements.order)) {
+  const std::vector<int> blocks = blocks_by_level(elements.order);
+  NodesOfBlocks nodes(assembly, elements.order, blocks, elements.in_single);
+  for (const int p : blocks) {
     const int first = elements.order.first_element[p], end = elements.order.first_element[p + 1];
     part = 0;
     while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
@@ -247,7 +283,7 @@ void build_blocks(const AssembledScene& assembled, const AbsorbingLayers& absorb
       groups[group].part_of_row.push_back(static_cast<int>(part));
       found->second[1] = static_cast<int>(materials[group].size()) - 1;
     }
-    append_block(assembly, elements.order, first, end, lists[group]);
+    append_block(assembly, nodes.next(), lists[group]);
     lists[group].material.push_back(found->second[1]);
     groups[group].first_element.push_back(first);
     groups[group].element_count.push_back(end - first);

@@ -14,12 +14,26 @@ namespace {
 
 using Places = std::vector<std::uint16_t>;
 
-/// Where corner forces of a block meet: by pack of nodes where its places begin, and the places.
+/// Where corner forces of a block meet, see CornerSums.
 struct BlockPlaces {
   Places first, place;
 };
 
-/// The sums over corners, a pack of nodes at a time.
+/// For a device: in rounds of so many corners of a node. @param places by node, in order of how many rounds they take
+BlockPlaces rounds_of(const std::vector<Places>& places) {
+  BlockPlaces rounds;
+  std::size_t first = 0;
+  for (std::size_t begin = 0; first < places.size(); begin += corners_at_once) {
+    if (begin > 0) rounds.first.push_back(static_cast<std::uint16_t>(first));
+    for (std::size_t l = first; l < places.size(); ++l)
+      for (std::size_t c = begin; c < begin + corners_at_once; ++c)
+        rounds.place.push_back(c < places[l].size() ? places[l][c] : static_cast<std::uint16_t>(zero_place));
+    while (first < places.size() && places[first].size() <= begin + corners_at_once) ++first;
+  }
+  return rounds;
+}
+
+/// For a host: a pack of nodes at a time.
 BlockPlaces packs_of(const std::vector<Places>& places, int lanes) {
   BlockPlaces packs{{0}, {}};
   for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
@@ -34,10 +48,11 @@ BlockPlaces packs_of(const std::vector<Places>& places, int lanes) {
   return packs;
 }
 
-/// Rows of equal length, a multiple of `multiple`, filled up with each row's first value. Rows without values are left
+/// Rows of equal length, a multiple of `multiple`, filled up with `filling(p)`. Rows of blocks without places are left
 /// as they are.
+template <class Filling>
 Array<std::uint16_t*> even_rows(const char* label, const std::vector<BlockPlaces>& blocks, Places BlockPlaces::*row,
-                                int multiple, int& stride) {
+                                int multiple, const Filling& filling, int& stride) {
   std::size_t longest = 0;
   for (const BlockPlaces& block : blocks) longest = std::max(longest, (block.*row).size());
   stride = static_cast<int>((longest + multiple - 1) / multiple * multiple);
@@ -45,8 +60,9 @@ Array<std::uint16_t*> even_rows(const char* label, const std::vector<BlockPlaces
   const auto host = Kokkos::create_mirror_view(rows);
   for (std::size_t p = 0; p < blocks.size(); ++p) {
     const Places& values = blocks[p].*row;
-    if (values.empty()) continue;
-    for (int k = 0; k < stride; ++k) host(p * stride + k) = values[k < static_cast<int>(values.size()) ? k : 0];
+    if (blocks[p].place.empty()) continue;
+    for (int k = 0; k < stride; ++k)
+      host(p * stride + k) = k < static_cast<int>(values.size()) ? values[k] : static_cast<std::uint16_t>(filling(p));
   }
   Kokkos::deep_copy(rows, host);
   return rows;
@@ -110,7 +126,7 @@ class BlockFiller {
     ElementBlocks& blocks = group_.blocks;
     blocks.corner = unset_array<std::uint8_t*>("block corners", 8 * slots());
     const auto corner = Kokkos::create_mirror_view(blocks.corner);
-    std::vector<BlockPlaces> packs(blocks.count);
+    std::vector<BlockPlaces> meetings(blocks.count);
     each_block([&](int p) {
       auto local = local_numbers(p);
       std::vector<Places> meeting(node_count_(p));
@@ -121,12 +137,16 @@ class BlockFiller {
           if (slot < group_.element_count[p])
             meeting[l].push_back(static_cast<std::uint16_t>(N * elements_of_block + slot));
         }
-      packs[p] = packs_of(meeting, lanes_);
+      meetings[p] = on_device ? rounds_of(meeting) : packs_of(meeting, lanes_);
     });
     Kokkos::deep_copy(blocks.corner, corner);
-    blocks.first_place =
-        even_rows("first corner places", packs, &BlockPlaces::first, places_at_once, blocks.pack_stride);
-    blocks.place = even_rows("corner places", packs, &BlockPlaces::place, places_at_once, blocks.place_stride);
+    // A round without nodes begins behind the last.
+    blocks.first_place = even_rows(
+        "first corner places", meetings, &BlockPlaces::first, on_device ? 1 : places_at_once,
+        [&](std::size_t p) { return on_device ? node_count_(p) : 0; }, blocks.first_stride);
+    blocks.place = even_rows(
+        "corner places", meetings, &BlockPlaces::place, places_at_once, [](std::size_t /*p*/) { return zero_place; },
+        blocks.place_stride);
   }
 
   void fill_edges() {

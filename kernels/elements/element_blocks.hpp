@@ -38,6 +38,10 @@ static_assert(nodes_of_block % node_room == 0 && nodes_of_block * (9 * 8 + 4) +
                                                      48 * 1024,
               "the scratch memory of a team is too small");
 
+/// So many elements, of consecutive slots, are a group of a host's, whatever the lanes of a pack there: results are the
+/// same then on any processor.
+inline constexpr int elements_of_group = 8;
+
 /// The rigid motion from which single precision measures a block's displacements: u = (x - now) - turn (X - before).
 /// Any turn and any point near the block's own will do, so the frames are renewed only now and then; what they take out
 /// is what would cost digits.
@@ -72,8 +76,15 @@ struct ElementBlocks {
   Array<double * [BlockFrame::values]> frame;  ///< empty in double precision
   Array<std::uint8_t*> corner;                 ///< by batch: eight places in the block's nodes, corner by corner
   Array<std::uint16_t*> first_place;           ///< first_stride for each block, see CornerSums
-  Array<std::uint16_t*> place;    ///< place_stride for each block: where the corner forces lie that meet at its nodes
-  Array<float*> hourglass_scale;  ///< by slot: c (kg/s) or k (N/m) of the hourglass control
+  Array<std::uint16_t*> place;  ///< place_stride for each block: where the corner forces lie that meet at its nodes
+  /// On a host in double precision: an edge group are the edges at the same place in the elements of a group, for the
+  /// four places along one of the elements' directions. Groups of elements that are neighbours share them. A block for
+  /// whose elements that spares little has none.
+  int edge_stride = 0;        ///< room for the edge groups of any block
+  Array<int*> edge_count;     ///< edge groups of each block
+  Array<std::uint8_t*> edge;  ///< 2 elements_of_group for each edge group: places of the edges' nodes, lower xi first
+  Array<std::uint8_t*> edge_of_group;  ///< four edge groups for each group of elements
+  Array<float*> hourglass_scale;       ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;  ///< by slot, N/m: stiffness control while settling, whatever the run's own control
   Array<double*> hourglass_energy;   ///< power_sums for each block: J dissipated so far
 };

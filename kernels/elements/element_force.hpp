@@ -3,8 +3,8 @@
 #include <type_traits>
 
 #include "kernels/elements/corner_sums.hpp"
+#include "kernels/elements/edge_records.hpp"
 #include "kernels/elements/hourglass.hpp"
-#include "kernels/elements/node_records.hpp"
 #include "kernels/materials/elastic.hpp"
 
 namespace railwave {
@@ -27,7 +27,9 @@ struct StagedBatch {
   KOKKOS_FORCEINLINE_FUNCTION void velocity(int i, T (&m)[7]) const {
     staged.modes(staged.velocity + i * staged.stride, corners, m);
   }
-  KOKKOS_FORCEINLINE_FUNCTION void put_force(int i, const T (&f)[8]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void put_force(int i, const T (&m)[7]) const {
+    T f[8];
+    corners_of(m, f);
     for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * elements_of_block, f[N]);
   }
 };
@@ -63,7 +65,8 @@ struct ElementForce {
   static std::size_t scratch_size(const ElementBlocks& blocks) {
 #ifdef RAILWAVE_SIMD_LANES
     if constexpr (in_records)
-      return NodeRecords<Hourglass::needs_velocity>::scratch_size(blocks.node_stride) + sizeof(S) * elements_of_block +
+      return NodeRecords<Hourglass::needs_velocity>::scratch_size(blocks.node_stride) +
+             EdgeRecords<Hourglass::needs_velocity>::scratch_size(blocks.edge_stride) + sizeof(S) * elements_of_block +
              scratch_alignment;
 #endif
     return Staged::scratch_size(blocks.node_stride) + sizeof(S) * (3u * component_stride + elements_of_block) +
@@ -127,27 +130,16 @@ struct ElementForce {
   template <class Member>
   void run_records(const Member& team, const int p) const {
     using Records = NodeRecords<Hourglass::needs_velocity>;
-    constexpr int group = Records::group, parts = group / lane_count<S>;
-    constexpr int prefetched = (nodes_of_block * group + elements_of_block - 1) / elements_of_block;
     const Records records(team, blocks.node_stride);
     S* power = scratch_values<S>(team, elements_of_block);
     const int elements = blocks.element_count(p), count = blocks.node_count(p);
     const auto constants = material.template of_block<S>(blocks.material(p), Staged::turn(blocks, p, nodes.nodes));
     const int* number = blocks.node.data() + static_cast<long>(p) * blocks.node_stride;
-    const int next_count = p + 1 < blocks.count ? blocks.node_count(p + 1) : 0;
-    const std::uint8_t* corners = blocks.corner.data() + static_cast<long>(p) * elements_of_block * 8;
     records.bring(nodes.nodes, number, count);
-    for (int first = 0, fetched = 0; first < elements; first += group, fetched += prefetched) {
-      Records::prefetch_nodes(nodes.nodes, number + blocks.node_stride, fetched,
-                              fetched + prefetched < next_count ? fetched + prefetched : next_count);
-      typename Records::Batch batch[parts];
-      for (int k = 0; k < parts; ++k) batch[k].load(records, corners + (first + k * lane_count<S>)*8);
-      for (int k = 0; k < parts; ++k) {
-        const int b = first / lane_count<S> + k;
-        batch_force(p, b, batch[k], hourglass_scales(p, b), constants, power);
-      }
-      records.subtract(batch, corners + first * 8, elements - first);
-    }
+    if (blocks.edge_stride > 0 && blocks.edge_count(p) > 0)
+      run_edges(team, p, elements, records, constants, power);
+    else
+      run_corners(p, elements, records, constants, power);
     for (int l = 0; l < count; ++l) {
       if (Advance && number[l] < 0) {
         records.advance(nodes, number[l] & ~advance_bit, l);
@@ -157,6 +149,57 @@ struct ElementForce {
       partial(first_partial + p * blocks.node_stride + l) = {{f[0], f[1], f[2], f[3]}};
     }
     add_power(team, p, elements, power);
+  }
+
+  /// Asks memory for the next block's nodes, a share with each group of elements.
+  /// @param first element of the group
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_share(const int p, const int first) const {
+    constexpr int share = (nodes_of_block * elements_of_group + elements_of_block - 1) / elements_of_block;
+    const int count = p + 1 < blocks.count ? blocks.node_count(p + 1) : 0, begin = first / elements_of_group * share;
+    NodeRecords<Hourglass::needs_velocity>::prefetch_nodes(
+        nodes.nodes, blocks.node.data() + static_cast<long>(p + 1) * blocks.node_stride, begin,
+        begin + share < count ? begin + share : count);
+  }
+
+  template <class Records, class Constants>
+  void run_corners(const int p, const int elements, const Records& records, const Constants& constants,
+                   S* power) const {
+    constexpr int group = Records::group, parts = group / lane_count<S>;
+    const std::uint8_t* corners = blocks.corner.data() + static_cast<long>(p) * elements_of_block * 8;
+    for (int first = 0; first < elements; first += group) {
+      prefetch_share(p, first);
+      typename Records::Batch batch[parts];
+      for (int k = 0; k < parts; ++k) batch[k].load(records, corners + (first + k * lane_count<S>)*8);
+      for (int k = 0; k < parts; ++k) {
+        const int b = first / lane_count<S> + k;
+        batch_force(p, b, batch[k], hourglass_scales(p, b), constants, power);
+      }
+      records.subtract(batch, corners + first * 8, elements - first);
+    }
+  }
+
+  template <class Member, class Records, class Constants>
+  void run_edges(const Member& team, const int p, const int elements, const Records& records,
+                 const Constants& constants, S* power) const {
+    using Edges = EdgeRecords<Hourglass::needs_velocity>;
+    constexpr int group = Records::group;
+    const Edges edges(team, blocks.edge_stride);
+    const int edge_count = blocks.edge_count(p);
+    const std::uint8_t* node = blocks.edge.data() + static_cast<long>(p) * blocks.edge_stride * (2 * group);
+    const std::uint8_t* edge_of_group =
+        blocks.edge_of_group.data() + static_cast<long>(p) * (elements_of_block / group * 4);
+    for (int k = 0; k < edge_count; ++k) edges.make(records, node + 2 * group * k, edges.record + Edges::size * k);
+    for (int first = 0; first < elements; first += group) {
+      prefetch_share(p, first);
+      for (int lane = 0; lane < group; lane += lane_count<S>) {
+        typename Edges::Batch batch;
+        for (int k = 0; k < 4; ++k)
+          batch.edge[k] = edges.record + Edges::size * edge_of_group[first / group * 4 + k] + lane;
+        const int b = (first + lane) / lane_count<S>;
+        batch_force(p, b, batch, hourglass_scales(p, b), constants, power);
+      }
+    }
+    for (int k = 0; k < edge_count; ++k) edges.subtract(records, node + 2 * group * k, edges.record + Edges::size * k);
   }
 #endif
 
@@ -213,7 +256,7 @@ struct ElementForce {
     T power = S(0);
     constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int i = 0; i < 3; ++i) {
-      T q[4], stress[3], m[7], f[8];
+      T q[4], stress[3], m[7];
       if constexpr (Hourglass::stores) {
         for (int M = 0; M < 4; ++M) q[M] = scale * (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]);
       } else {
@@ -233,8 +276,7 @@ struct ElementForce {
       for (int k = 0; k < 6; ++k) m[k] = stress[0] * B[0][k] + stress[1] * B[1][k] + stress[2] * B[2][k];
       for (int M = 0; M < 3; ++M) m[3 + M] += q[M];
       m[6] = q[3];
-      corners_of(m, f);
-      batch.put_force(i, f);
+      batch.put_force(i, m);
     }
     if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
   }

@@ -17,39 +17,55 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr int mode_sign(int mode, int corner) {
   return sign[mode][corner];
 }
 
-/// m[mode] = sum over corners of u times the mode's sign.
+/// m[mode] = sum over corners of u times the mode's sign, from what the corners of each edge along xi have in sum and
+/// by how much they differ. Edges: of corners 0 and 1, 3 and 2, 4 and 5, 7 and 6.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void modes_of(const T (&u)[8], T (&m)[7]) {
-  const T sum01 = u[0] + u[1], sum23 = u[2] + u[3], sum45 = u[4] + u[5], sum67 = u[6] + u[7];
-  const T d10 = u[1] - u[0], d23 = u[2] - u[3], d54 = u[5] - u[4], d67 = u[6] - u[7];
-  const T bottom = d10 + d23, top = d54 + d67;
-  const T bottom_turn = d23 - d10, top_turn = d67 - d54;
-  const T bottom_eta = sum23 - sum01, top_eta = sum67 - sum45;
+KOKKOS_FORCEINLINE_FUNCTION void modes_of_edges(const T (&sum)[4], const T (&change)[4], T (&m)[7]) {
+  const T bottom = change[0] + change[1], top = change[2] + change[3];
+  const T bottom_turn = change[1] - change[0], top_turn = change[3] - change[2];
+  const T bottom_eta = sum[1] - sum[0], top_eta = sum[3] - sum[2];
   m[0] = bottom + top;
   m[1] = bottom_eta + top_eta;
-  m[2] = (sum45 + sum67) - (sum01 + sum23);
+  m[2] = (sum[2] + sum[3]) - (sum[0] + sum[1]);
   m[3] = top_eta - bottom_eta;
   m[4] = top - bottom;
   m[5] = bottom_turn + top_turn;
   m[6] = top_turn - bottom_turn;
 }
 
+/// m[mode] = sum over corners of u times the mode's sign.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void modes_of(const T (&u)[8], T (&m)[7]) {
+  const T sum[4] = {u[0] + u[1], u[2] + u[3], u[4] + u[5], u[6] + u[7]};
+  const T change[4] = {u[1] - u[0], u[2] - u[3], u[5] - u[4], u[6] - u[7]};
+  modes_of_edges(sum, change, m);
+}
+
+/// The values at the corners of each edge along xi (see above) are sum - change and sum + change.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void edges_of(const T (&m)[7], T (&sum)[4], T (&change)[4]) {
+  const T xi_below = m[0] - m[4], xi_above = m[0] + m[4], turn_below = m[5] - m[6], turn_above = m[5] + m[6];
+  const T eta_below = m[1] - m[3], eta_above = m[1] + m[3];
+  change[0] = xi_below - turn_below;
+  change[1] = xi_below + turn_below;
+  change[2] = xi_above - turn_above;
+  change[3] = xi_above + turn_above;
+  sum[0] = -(m[2] + eta_below);
+  sum[1] = eta_below - m[2];
+  sum[2] = m[2] - eta_above;
+  sum[3] = m[2] + eta_above;
+}
+
 /// f[corner] = sum over modes of m times the mode's sign.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION void corners_of(const T (&m)[7], T (&f)[8]) {
-  const T xi_below = m[0] - m[4], xi_above = m[0] + m[4], turn_below = m[5] - m[6], turn_above = m[5] + m[6];
-  const T eta_below = m[1] - m[3], eta_above = m[1] + m[3];
-  const T below_minus = xi_below - turn_below, below_plus = xi_below + turn_below;
-  const T above_minus = xi_above - turn_above, above_plus = xi_above + turn_above;
-  const T b0 = -(m[2] + eta_below), b1 = eta_below - m[2], t0 = m[2] - eta_above, t1 = m[2] + eta_above;
-  f[0] = b0 - below_minus;
-  f[1] = b0 + below_minus;
-  f[2] = b1 + below_plus;
-  f[3] = b1 - below_plus;
-  f[4] = t0 - above_minus;
-  f[5] = t0 + above_minus;
-  f[6] = t1 + above_plus;
-  f[7] = t1 - above_plus;
+  T sum[4], change[4];
+  edges_of(m, sum, change);
+  constexpr int low[4] = {0, 3, 4, 7}, high[4] = {1, 2, 5, 6};
+  for (int k = 0; k < 4; ++k) {
+    f[low[k]] = sum[k] - change[k];
+    f[high[k]] = sum[k] + change[k];
+  }
 }
 
 /// Mean gradient of Flanagan and Belytschko 1981, eqs. 16 and 79: B[i] = dV/dx[i], the exact derivative of the

@@ -68,9 +68,12 @@ KOKKOS_FORCEINLINE_FUNCTION void subtract_rows(double* rows, const std::uint8_t*
 template <bool WithVelocity>
 struct NodeRecords {
   static constexpr int values = WithVelocity ? 10 : 8, mass_place = values - 1;
+  static constexpr int position_value(int i) { return i < 2 ? i : 4; }
+  static constexpr int displacement_value(int i) { return i < 2 ? 2 + i : 5; }
+  static constexpr int velocity_value(int i) { return 6 + i; }
   /// Elements whose corners are loaded, computed and added up together: as many whatever the lanes of a pack, so that
   /// sums have the same order on any processor.
-  static constexpr int group = 8;
+  static constexpr int group = elements_of_group;
   static_assert(group % lane_count<double> == 0 && elements_of_block % group == 0);
 
   double* record;
@@ -126,10 +129,12 @@ struct NodeRecords {
           load_pair(of_lane, pair, value[2 * pair][N], value[2 * pair + 1][N]);
       }
     }
-    void position(int i, T (&m)[7]) const { modes_of(value[i < 2 ? i : 4], m); }
-    void displacement(int i, T (&m)[7]) const { modes_of(value[i < 2 ? 2 + i : 5], m); }
-    void velocity(int i, T (&m)[7]) const { modes_of(value[6 + i], m); }
-    void put_force(int i, const T (&f)[8]) {
+    void position(int i, T (&m)[7]) const { modes_of(value[position_value(i)], m); }
+    void displacement(int i, T (&m)[7]) const { modes_of(value[displacement_value(i)], m); }
+    void velocity(int i, T (&m)[7]) const { modes_of(value[velocity_value(i)], m); }
+    void put_force(int i, const T (&m)[7]) {
+      T f[8];
+      corners_of(m, f);
       for (int N = 0; N < 8; ++N) force[N][i] = f[N];
     }
   };
@@ -150,25 +155,8 @@ struct NodeRecords {
 
   /// Moves node n, at place l of the block.
   void advance(const NodeAdvance& nodes, int n, int l) const {
-    const double *r = record + values * l, *f = sum + 4 * l;
-    [[maybe_unused]] double* x = &nodes.nodes.position(n, 0);
-    double* v = &nodes.nodes.velocity(n, 0);
-    const double* before = WithVelocity ? r + 6 : v;
-    const double inverse_mass = 1.0 / r[mass_place];
-#if defined(__FMA__)
-    // NodeAdvance's acceleration() and move(), two components at once.
-    const __m128d a = _mm_fmadd_pd(_mm_set1_pd(inverse_mass), _mm_load_pd(f), _mm_loadu_pd(nodes.gravity.x));
-    const __m128d next = _mm_fmadd_pd(_mm_set1_pd(nodes.velocity_step), a, _mm_loadu_pd(before));
-    const double a_last = multiply_add(inverse_mass, f[2], nodes.gravity[2]);
-    const double next_last = multiply_add(nodes.velocity_step, a_last, before[2]);
-    _mm_storeu_pd(v, next);
-    v[2] = next_last;
-    _mm_storeu_pd(x, _mm_fmadd_pd(_mm_set1_pd(nodes.step), next, _mm_load_pd(r)));
-    x[2] = multiply_add(nodes.step, next_last, r[4]);
-#else
-    const Vector3 a = nodes.acceleration(inverse_mass, {{f[0], f[1], f[2]}});
-    nodes.move(n, a, {{r[0], r[1], r[4]}}, {{before[0], before[1], before[2]}});
-#endif
+    const double* r = record + values * l;
+    nodes.move_under(n, 1.0 / r[mass_place], sum + 4 * l, r, r[4], WithVelocity ? r + 6 : &nodes.nodes.velocity(n, 0));
   }
 
   /// Asks memory for nodes that are soon needed: their rows lie wherever the mesh has them, and no processor foresees

@@ -173,6 +173,30 @@ struct NodeAdvance {
       nodes.position(n, i) = multiply_add(step, next, x[i]);
     }
   }
+
+#ifdef RAILWAVE_SIMD_LANES
+  /// The same for a node of a host under a force, N, that is all that acts on it beside gravity.
+  /// @param x its present position's first two components, `x_last` the third
+  /// @param v its present velocity
+  void move_under(int n, double inverse_mass, const double* force, const double* x, double x_last,
+                  const double* v) const {
+#if defined(__FMA__)
+    // Two components at once.
+    double *x_next = &nodes.position(n, 0), *v_next = &nodes.velocity(n, 0);
+    const __m128d a = _mm_fmadd_pd(_mm_set1_pd(inverse_mass), _mm_loadu_pd(force), _mm_loadu_pd(gravity.x));
+    const __m128d next = _mm_fmadd_pd(_mm_set1_pd(velocity_step), a, _mm_loadu_pd(v));
+    const double a_last = multiply_add(inverse_mass, force[2], gravity[2]);
+    const double next_last = multiply_add(velocity_step, a_last, v[2]);
+    _mm_storeu_pd(v_next, next);
+    v_next[2] = next_last;
+    _mm_storeu_pd(x_next, _mm_fmadd_pd(_mm_set1_pd(step), next, _mm_loadu_pd(x)));
+    x_next[2] = multiply_add(step, next_last, x_last);
+#else
+    const Vector3 a = acceleration(inverse_mass, {{force[0], force[1], force[2]}});
+    move(n, a, {{x[0], x[1], x_last}}, {{v[0], v[1], v[2]}});
+#endif
+  }
+#endif
 };
 
 /// A vector without its components along held directions. Each row of the table is I - sum d d^T over directions d.

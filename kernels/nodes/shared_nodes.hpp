@@ -64,6 +64,25 @@ struct SharedNodeUpdate {
     for (int place : node.place)
       if (place >= 0) prefetch(&partial.in_double(place));
   }
+
+  /// Moves a node of several blocks that feels nothing but elements and gravity: nearly all are such.
+  KOKKOS_FORCEINLINE_FUNCTION void move_plain(const SharedNode& node) const {
+    const NodalForce& force = forces.acceleration.force;
+    const PartialForce<double>* rows = force.partial.in_double.data();
+    PartialForce<double> sum = rows[node.place[0]];
+    const auto add = [&](const PartialForce<double>& row) {
+      for (int i = 0; i < 4; ++i) sum.x[i] += row.x[i];
+    };
+    add(rows[node.place[1]]);
+    if (node.more > 0) {
+      const MorePlaces& more = force.partial.more(node.more - 1);
+      for (int k = 0; k < MorePlaces::count && more.place[k] >= 0; ++k) add(rows[more.place[k]]);
+      for (int c = more.first; c < more.last; ++c) add(rows[force.nodes.partial_place(c)]);
+    }
+    const double* x = &advance.nodes.position(node.node, 0);
+    advance.move_under(node.node, 1.0 / advance.nodes.mass(node.node), sum.x, x, x[2],
+                       &advance.nodes.velocity(node.node, 0));
+  }
 #endif
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -71,6 +90,10 @@ struct SharedNodeUpdate {
     if (i + ahead < static_cast<int>(forces.shared.nodes.extent(0))) prefetch_node(forces.shared.nodes(i + ahead));
 #endif
     const SharedNode node = forces.shared.nodes(i);
+#ifdef RAILWAVE_SIMD_LANES
+    if (node.node >= 0 && node.place[1] >= 0 && !forces.acceleration.force.partial.single_precision)
+      return move_plain(node);
+#endif
     const SpecialNode special = forces.shared.special_of(i);
     const int n = node.node & ~special_bit;
     const double inverse_mass = 1.0 / advance.nodes.mass(n);

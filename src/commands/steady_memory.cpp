@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t of_libraries = std::size_t{16} << 20;  ///< bytes: many times what they take to begin
 std::atomic<bool> begun{false};
+char** first_environment = nullptr;    ///< before libraries begin getenv() finds nothing
 constexpr int of_own_pages = 1 << 20;  ///< bytes
 constexpr std::size_t of_stack = std::size_t{1} << 20;
 
@@ -28,10 +29,20 @@ void expect(std::size_t bytes) {
 #if !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)  // sanitizers have not begun then
 /// Some of the libraries that HDF5 brings, and their constructors, don't live through a lack of memory.
-void before_libraries(int, char**, char**) { expect(of_libraries); }
+void before_libraries(int, char**, char** environment) {
+  first_environment = environment;
+  expect(of_libraries);
+}
 [[gnu::section(".preinit_array"), gnu::used]] void (*const look_before_libraries)(int, char**,
                                                                                   char**) = before_libraries;
 #endif
+
+/// Null where there is none. @param name with "=" behind
+const char* environment_value(const char* name) {
+  for (char** entry = first_environment != nullptr ? first_environment : environ; *entry != nullptr; ++entry)
+    if (std::strncmp(*entry, name, std::strlen(name)) == 0) return *entry + std::strlen(name);
+  return nullptr;
+}
 
 [[gnu::noinline]] void touch_stack(std::size_t bytes) {
   auto* const lowest = static_cast<volatile char*>(alloca(bytes));
@@ -50,8 +61,8 @@ void end_for_want_of_memory() noexcept {
   };
   say("railwave: ");
   // Of a process that has not joined the others yet what has started it knows which it is.
-  for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
-    if (const char* rank = std::getenv(variable)) {
+  for (const char* variable : {"OMPI_COMM_WORLD_RANK=", "PMI_RANK="})
+    if (const char* rank = environment_value(variable)) {
       say("rank ");
       say(rank);
       say(": ");

@@ -9,6 +9,7 @@
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_law.hpp"
+#include "model/elements/edge_groups.hpp"
 #include "model/host_copy.hpp"
 #include "model/ranks/block_partition.hpp"
 #include "model/ranks/mesh_share.hpp"
@@ -69,7 +70,8 @@ void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Tra
   Activity laying("ordering the elements");
   check_elements(model);
   model.order = order_in_blocks(model.assembly,
-                                scene.solver.subcycling ? element_levels(scene, model.assembly) : std::vector<int>{});
+                                scene.solver.subcycling ? element_levels(scene, model.assembly) : std::vector<int>{},
+                                wants_rows(scene.solver.elements_in_single()));
   model.absorbing = absorbing_layers(scene, model.assembly);
   build_surroundings(model);
   // From here on ranks wait for each other.

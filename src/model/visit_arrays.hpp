@@ -83,6 +83,9 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   visit(ArrayUse::constant, "corner", blocks.corner);
   visit(ArrayUse::constant, "first_place", blocks.first_place);
   visit(ArrayUse::constant, "place", blocks.place);
+  visit(ArrayUse::constant, "edge_count", blocks.edge_count);
+  visit(ArrayUse::constant, "edge", blocks.edge);
+  visit(ArrayUse::constant, "edge_of_group", blocks.edge_of_group);
   visit(ArrayUse::constant, "hourglass_scale", blocks.hourglass_scale);
   visit(ArrayUse::constant, "settling_hourglass", blocks.settling_hourglass);
   visit(ArrayUse::run_state, "hourglass_energy", blocks.hourglass_energy);

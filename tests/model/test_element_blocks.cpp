@@ -21,7 +21,7 @@ Assembly wheel() {
   return assembly;
 }
 
-using Way = void (*)(const Assembly&, std::vector<int>&, int, int, std::vector<int>&);
+using Way = void (*)(const Assembly&, std::vector<int>&, int, int, std::vector<int>&, const BlockLimits&);
 
 struct Division {
   std::vector<int> elements, first;
@@ -31,7 +31,7 @@ Division divide(const Assembly& assembly, Way way, int begin, int end) {
   Division result;
   result.elements.resize(assembly.elements.size());
   std::iota(result.elements.begin(), result.elements.end(), 0);
-  way(assembly, result.elements, begin, end, result.first);
+  way(assembly, result.elements, begin, end, result.first, {});
   return result;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
@@ -28,8 +29,11 @@ struct State {
   std::vector<double> position, velocity;
 };
 
+/// By where the nodes were: their order is another in single precision on a processor.
 State state_of(const Model& model) {
-  const auto nodes = all_nodes(model);
+  std::vector<int> nodes = all_nodes(model);
+  std::sort(nodes.begin(), nodes.end(),
+            [&](int a, int b) { return model.assembly.nodes[a] < model.assembly.nodes[b]; });
   return {node_field(model, model.ties, NodeField::position, nodes).values,
           node_field(model, model.ties, NodeField::velocity, nodes).values};
 }
@@ -47,6 +51,7 @@ scene::Scene flying_block(scene::HourglassType hourglass) {
   scene::Scene scene = block_scene({0.12, 0.1, 0.08}, {9, 8, 7}, 1e-3);
   set_hourglass(scene.parts[0], hourglass, 0.05);
   scene.solver.precision = scene::Precision::single_precision;
+  scene.time.step = 1.5e-6;  // a search ends somewhat apart in another order of nodes
   scene.parts[0].position = {0.4, -0.3, 0.2};
   add_motion(scene, {"block"}, {28, -3, 5}, {20, 100, -35});
   return scene;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
@@ -11,6 +11,9 @@ namespace {
 /// A few blocks less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 %
 /// slower.
 constexpr double worthwhile_share = 0.95;
+
+/// A node that a block has more takes as long as an element gains in a row, or somewhat longer.
+constexpr double worth_of_row = 0.3;
 
 void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
                         std::vector<int>& first) {
@@ -23,6 +26,44 @@ void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, in
   if (first_grown.size() >= worthwhile_share * first.size()) return;
   std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
   first = std::move(first_grown);
+}
+
+/// Blocks of 5 x 5 x 5 elements have the fewest nodes an element.
+constexpr double fewest_nodes_of_element = 216.0 / 125;
+
+/// Nodes of all blocks from first[from] on, those of several counted for each.
+double node_count(const Assembly& assembly, const std::vector<int>& elements, const std::vector<int>& first,
+                  std::size_t from, int end) {
+  ValuesOfRange<int> seen(node_range(assembly.elements, elements, first[from], end), -1);
+  double count = 0;
+  for (std::size_t p = from; p < first.size(); ++p)
+    for (int k = first[p]; k < (p + 1 < first.size() ? first[p + 1] : end); ++k)
+      for (int n : assembly.elements[elements[k]]) {
+        if (seen[n] == static_cast<int>(p)) continue;
+        seen[n] = static_cast<int>(p);
+        ++count;
+      }
+  return count;
+}
+
+/// The same with as many elements as possible in rows.
+/// @param elements ascending from begin to end
+void divide_with_rows(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                      std::vector<int>& first) {
+  const std::size_t from = first.size();
+  const int left = gather_rows(assembly, elements, begin, end, first);
+  if (left < end) divide_into_blocks(assembly, elements, left, end, first);
+  if (left == begin || left == end) return;
+  // What rows are worth, in nodes. Blocks without are found only where they can have so few.
+  const double as_good = node_count(assembly, elements, first, from, end) - worth_of_row * (left - begin);
+  if (fewest_nodes_of_element * (end - begin) > as_good) return;
+  std::vector<int> plain = elements, first_plain(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(from));
+  std::sort(plain.begin() + begin, plain.begin() + end);
+  divide_into_blocks(assembly, plain, begin, end, first_plain);
+  if (node_count(assembly, plain, first_plain, from, end) > as_good) return;
+  // In place, for the caller has iterators.
+  std::copy(plain.begin() + begin, plain.begin() + end, elements.begin() + begin);
+  first = std::move(first_plain);
 }
 
 /// New number of each node.
@@ -94,7 +135,7 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
 
 }  // namespace
 
-BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels) {
+BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels, bool in_rows) {
   std::vector<int> elements(assembly.elements.size());
   BlockOrder order;
   auto& first = order.first_element;
@@ -106,8 +147,8 @@ BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels) {
     for (auto same = begin; same != end;) {
       const int level = level_of(*same);
       const auto next = std::find_if(same, end, [&](int e) { return level_of(e) != level; });
-      divide_into_blocks(assembly, elements, static_cast<int>(same - elements.begin()),
-                         static_cast<int>(next - elements.begin()), first);
+      (in_rows ? divide_with_rows : divide_into_blocks)(assembly, elements, static_cast<int>(same - elements.begin()),
+                                                        static_cast<int>(next - elements.begin()), first);
       order.level.resize(first.size(), level);
       same = next;
     }

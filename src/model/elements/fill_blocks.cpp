@@ -4,6 +4,7 @@
 #include "kernels/support/set_zero.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/elements/edge_groups.hpp"
 #include "model/elements/hourglass_scale.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
@@ -74,6 +75,7 @@ class BlockFiller {
               ElementGroup& group)
       : assembled_(assembled),
         absorbing_(absorbing),
+        in_rows_(wants_rows(single)),
         lanes_(single ? lane_count<float> : lane_count<double>),
         group_(group),
         node_(to_host(group.blocks.node)),
@@ -85,6 +87,7 @@ class BlockFiller {
 
   void fill() {
     fill_corners();
+    if (in_rows_) fill_edges();
     fill_scales();
     if (group_.material.flows()) fill_volumes();
     if (group_.damping.active()) fill_drag();
@@ -98,6 +101,11 @@ class BlockFiller {
   const scene::Part& part(int p) const { return assembled_.scene.parts[group_.part_of_row[row_(p)]]; }
   const scene::Material& material(int p) const {
     return assembled_.scene.materials[assembled_.assembly.parts[group_.part_of_row[row_(p)]].material];
+  }
+  /// Of an element's corner in ElementBlocks::corner.
+  std::size_t corner_place(int p, int slot, int N) const {
+    const std::size_t batch = (static_cast<std::size_t>(p) * elements_of_block + slot) / lanes_;
+    return (8 * batch + N) * lanes_ + slot % lanes_;
   }
   std::size_t slots() const { return static_cast<std::size_t>(group_.blocks.count) * elements_of_block; }
 
@@ -122,12 +130,10 @@ class BlockFiller {
     each_block([&](int p) {
       auto local = local_numbers(p);
       std::vector<Places> meeting(node_count_(p));
-      const std::size_t base = 8 * static_cast<std::size_t>(p) * elements_of_block;
       for (int slot = 0; slot < elements_of_block; ++slot)
         for (int N = 0; N < 8; ++N) {
           const int l = local[corners(p, slot)[N]];
-          corner(base + (static_cast<std::size_t>(slot / lanes_) * 8 + N) * lanes_ + slot % lanes_) =
-              static_cast<std::uint8_t>(l);
+          corner(corner_place(p, slot, N)) = static_cast<std::uint8_t>(l);
           if (slot < group_.element_count[p])
             meeting[l].push_back(static_cast<std::uint16_t>(N * elements_of_block + slot));
         }
@@ -141,6 +147,40 @@ class BlockFiller {
     blocks.place = even_rows(
         "corner places", meetings, &BlockPlaces::place, places_at_once, [](std::size_t /*p*/) { return zero_place; },
         blocks.place_stride);
+  }
+
+  void fill_edges() {
+    ElementBlocks& blocks = group_.blocks;
+    const auto corner = to_host(blocks.corner);
+    std::vector<EdgeGroups> found(blocks.count);
+    each_block([&](int p) {
+      std::vector<std::array<int, 8>> elements(group_.element_count[p]);
+      for (int slot = 0; slot < group_.element_count[p]; ++slot)
+        for (int N = 0; N < 8; ++N) elements[slot][N] = corner(corner_place(p, slot, N));
+      found[p] = edge_groups(elements);
+    });
+    std::vector<int> count;
+    blocks.edge_stride = 0;
+    for (const EdgeGroups& groups : found) {
+      count.push_back(static_cast<int>(groups.node.size()));
+      blocks.edge_stride = std::max(blocks.edge_stride, count.back());
+    }
+    blocks.edge_count = to_device("block edge groups", count);
+    constexpr std::size_t of_edge = 2 * elements_of_group, of_block = elements_of_block / elements_of_group * 4;
+    const std::size_t of_edges = of_edge * blocks.edge_stride;
+    blocks.edge = unset_array<std::uint8_t*>("edge groups", of_edges * blocks.count);
+    blocks.edge_of_group = unset_array<std::uint8_t*>("edge groups of elements", of_block * blocks.count);
+    const auto edge = Kokkos::create_mirror_view(blocks.edge),
+               of_group = Kokkos::create_mirror_view(blocks.edge_of_group);
+    each_block([&](int p) {
+      const EdgeGroups& groups = found[p];
+      for (std::size_t k = 0; k < groups.node.size(); ++k)
+        for (std::size_t n = 0; n < of_edge; ++n) edge(of_edges * p + of_edge * k + n) = groups.node[k][n];
+      for (std::size_t g = 0; g < groups.of_group.size(); ++g)
+        for (std::size_t k = 0; k < 4; ++k) of_group(of_block * p + 4 * g + k) = groups.of_group[g][k];
+    });
+    Kokkos::deep_copy(blocks.edge, edge);
+    Kokkos::deep_copy(blocks.edge_of_group, of_group);
   }
 
   void fill_scales() {
@@ -205,6 +245,7 @@ class BlockFiller {
 
   const AssembledScene& assembled_;
   const AbsorbingLayers& absorbing_;
+  const bool in_rows_;
   const int lanes_;
   ElementGroup& group_;
   const Array<int*>::HostMirror node_, node_count_, row_;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
@@ -19,31 +19,9 @@ constexpr int no_block = -1, not_asked_for = -2;
 
 class Grower {
  public:
-  Grower(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
-      : assembly_(assembly),
-        first_around_(assembly.nodes.size() + 1, 0),
-        centre_(assembly.elements.size()),
-        block_(assembly.elements.size(), not_asked_for),
-        shared_(assembly.elements.size(), 0),
-        considered_by_(assembly.elements.size(), no_block),
-        staged_by_(assembly.nodes.size(), no_block) {
-    for (int k = begin; k < end; ++k) {
-      const int e = elements[k];
-      block_[e] = no_block;
-      centre_[e] = {0, 0, 0};
-      for (int n : assembly.elements[e]) {
-        ++first_around_[n + 1];
-        for (int i = 0; i < 3; ++i) centre_[e][i] += 0.125 * assembly.nodes[n][i];
-      }
-    }
-    for (std::size_t n = 0; n < assembly.nodes.size(); ++n) first_around_[n + 1] += first_around_[n];
-    around_.resize(first_around_.back());
-    std::vector<int> filled(first_around_.begin(), first_around_.end() - 1);
-    for (int k = begin; k < end; ++k)
-      for (int n : assembly.elements[elements[k]]) around_[filled[n]++] = elements[k];
-    left_.resize(assembly.nodes.size());
-    for (std::size_t n = 0; n < left_.size(); ++n) left_[n] = first_around_[n + 1] - first_around_[n];
-  }
+  Grower(const Assembly& assembly, const std::vector<int>& elements, int begin, int end, const BlockLimits& limits)
+      : Grower(assembly, elements, begin, end, limits, element_range(elements, begin, end),
+               node_range(assembly.elements, elements, begin, end)) {}
 
   void divide(std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
     const std::vector<int> all(elements.begin() + begin, elements.begin() + end);
@@ -73,6 +51,32 @@ class Grower {
   }
 
  private:
+  Grower(const Assembly& assembly, const std::vector<int>& elements, int begin, int end, const BlockLimits& limits,
+         const NumberRange& numbers, const NumberRange& nodes)
+      : assembly_(assembly),
+        limits_(limits),
+        first_around_({nodes.first, nodes.last + 1}, 0),
+        left_(nodes, 0),
+        centre_(numbers, Vec3{}),
+        block_(numbers, not_asked_for),
+        shared_(numbers, 0),
+        considered_by_(numbers, no_block),
+        staged_by_(nodes, no_block) {
+    for (int k = begin; k < end; ++k) {
+      const int e = elements[k];
+      block_[e] = no_block;
+      for (int n : assembly.elements[e]) {
+        ++left_[n];
+        for (int i = 0; i < 3; ++i) centre_[e][i] += 0.125 * assembly.nodes[n][i];
+      }
+    }
+    for (int n = nodes.first; n <= nodes.last; ++n) first_around_[n + 1] = first_around_[n] + left_[n];
+    around_.resize(8 * static_cast<std::size_t>(end - begin));
+    ValuesOfRange<int> filled = first_around_;
+    for (int k = begin; k < end; ++k)
+      for (int n : assembly.elements[elements[k]]) around_[filled[n]++] = elements[k];
+  }
+
   /// Elements that lie around an element's corners and are in no block yet.
   int freedom(int e) const {
     int sum = 0;
@@ -96,7 +100,7 @@ class Grower {
       take(e, number);
       block.push_back(e);
       for (int i = 0; i < 3; ++i) sum[i] += centre_[e][i];
-      if (block.size() == elements_of_block) break;
+      if (static_cast<int>(block.size()) == limits_.elements) break;
     }
     return block;
   }
@@ -129,7 +133,7 @@ class Grower {
     for (int e : considered_) {
       if (block_[e] == number) continue;
       considered_[kept++] = e;
-      if (node_count_ + 8 - shared_[e] > nodes_of_block) continue;
+      if (node_count_ + 8 - shared_[e] > limits_.nodes) continue;
       double squared = 0;
       for (int i = 0; i < 3; ++i) squared += (centre_[e][i] - sum[i] / count) * (centre_[e][i] - sum[i] / count);
       const double score = shared_[e] - freedom_weight * freedom(e) - scale * std::sqrt(squared);
@@ -143,22 +147,26 @@ class Grower {
   }
 
   const Assembly& assembly_;
-  std::vector<int> first_around_, around_;  ///< elements around each node, of those to divide
-  std::vector<int> left_;                   ///< how many of them are in no block yet
-  std::vector<Vec3> centre_;                ///< m
-  std::vector<int> block_;                  ///< of each element
-  std::vector<int> shared_;                 ///< nodes of a considered element that are the growing block's
-  std::vector<int> considered_by_, considered_;
-  std::vector<int> staged_by_;  ///< last block that took a node
+  const BlockLimits limits_;
+  ValuesOfRange<int> first_around_;  ///< of each node: where the elements around it begin
+  std::vector<int> around_;          ///< of the elements to divide
+  ValuesOfRange<int> left_;          ///< of each node: how many of those around it are in no block yet
+  ValuesOfRange<Vec3> centre_;       ///< m
+  ValuesOfRange<int> block_;         ///< of each element
+  ValuesOfRange<int> shared_;        ///< nodes of a considered element that are the growing block's
+  ValuesOfRange<int> considered_by_;
+  std::vector<int> considered_;
+  ValuesOfRange<int> staged_by_;  ///< last block that took a node
   int node_count_ = 0;
 };
 
 }  // namespace
 
-void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first,
+                 const BlockLimits& limits) {
   const std::size_t from = first.size();
-  Grower(assembly, elements, begin, end).divide(elements, begin, end, first);
-  join_scraps(assembly, elements, begin, end, first, from);
+  Grower(assembly, elements, begin, end, limits).divide(elements, begin, end, first);
+  join_scraps(assembly, elements, begin, end, first, from, limits);
 }
 
 }  // namespace railwave

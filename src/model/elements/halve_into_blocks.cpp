@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/number_range.hpp"
 
 namespace railwave {
 namespace {
@@ -12,11 +12,12 @@ namespace {
 /// elements, between two layers of elements where that leaves both halves room in their blocks.
 class Divider {
  public:
-  Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
+  Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end, const BlockLimits& limits)
       : assembly_(assembly),
-        centre_(assembly.elements.size()),
-        extent_(assembly.elements.size()),
-        seen_(assembly.nodes.size(), -1) {
+        limits_(limits),
+        centre_(element_range(elements, begin, end), Vec3{}),
+        extent_(element_range(elements, begin, end), Vec3{}),
+        seen_(node_range(assembly.elements, elements, begin, end), -1) {
     for (int k = begin; k < end; ++k) {
       const int e = elements[k];
       Vec3 low = assembly.nodes[assembly.elements[e][0]], high = low;
@@ -35,7 +36,7 @@ class Divider {
   /// Orders elements[begin, end) and appends the first place of each block.
   void divide(std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
     const int count = end - begin;
-    if (count <= elements_of_block && node_count(elements, begin, end) <= nodes_of_block) {
+    if (count <= limits_.elements && node_count(elements, begin, end) <= limits_.nodes) {
       std::sort(elements.begin() + begin, elements.begin() + end);
       first.push_back(begin);
       return;
@@ -72,8 +73,7 @@ class Divider {
       if ((high[i] - low[i]) * size[axis] > (high[axis] - low[axis]) * size[i]) axis = i;
 
     // A little room to spare lets large groups be cut between layers.
-    const int blocks =
-        std::max(2, static_cast<int>(std::ceil((count > 1500 ? 1.04 : 1.0) * count / elements_of_block)));
+    const int blocks = std::max(2, static_cast<int>(std::ceil((count > 1500 ? 1.04 : 1.0) * count / limits_.elements)));
     const int left_blocks = blocks / 2;
     const int target = static_cast<int>(static_cast<long>(count) * left_blocks / blocks);
     const int layers = std::clamp(static_cast<int>((high[axis] - low[axis]) / size[axis] + 1.5), 2, 4096);
@@ -85,7 +85,7 @@ class Divider {
     for (int layer = 0; layer < layers; ++layer) {
       below += in_layer[layer];
       const bool fits =
-          below <= left_blocks * elements_of_block && count - below <= (blocks - left_blocks) * elements_of_block;
+          below <= left_blocks * limits_.elements && count - below <= (blocks - left_blocks) * limits_.elements;
       if (below == 0 || below == count || !fits) continue;
       if (best < 0 || std::abs(below - target) < std::abs(best - target)) {
         best = below;
@@ -108,16 +108,17 @@ class Divider {
   }
 
   const Assembly& assembly_;
-  std::vector<Vec3> centre_, extent_;
-  std::vector<int> seen_;
+  const BlockLimits limits_;
+  ValuesOfRange<Vec3> centre_, extent_;
+  ValuesOfRange<int> seen_;
   int stamp_ = 0;
 };
 
 }  // namespace
 
 void halve_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
-                       std::vector<int>& first) {
-  if (end > begin) Divider(assembly, elements, begin, end).divide(elements, begin, end, first);
+                       std::vector<int>& first, const BlockLimits& limits) {
+  if (end > begin) Divider(assembly, elements, begin, end, limits).divide(elements, begin, end, first);
 }
 
 }  // namespace railwave

@@ -8,8 +8,6 @@
 namespace railwave {
 namespace {
 
-/// Blocks of at most so many elements are joined with others: a team takes as long for them as for a full one.
-constexpr int most_of_scrap = elements_of_block / 2;
 /// In sizes of its elements, how far a scrap may be from what it is joined with: single precision counts on blocks
 /// that lie together.
 constexpr double farthest = 60;
@@ -55,13 +53,13 @@ std::vector<int> together(const std::vector<int>& a, const std::vector<int>& b) 
 }
 
 /// Joins a scrap with the nearest of others that has room. @return whether there was one
-bool join_nearest(const Assembly& assembly, const Scrap& scrap, std::vector<Scrap>& others) {
+bool join_nearest(const Assembly& assembly, const Scrap& scrap, const BlockLimits& limits, std::vector<Scrap>& others) {
   Scrap* nearest = nullptr;
   double best = farthest * scrap.size;
   for (Scrap& other : others) {
     const double way = distance(scrap, other);
-    if (way > best || scrap.elements.size() + other.elements.size() > elements_of_block ||
-        together(scrap.nodes, other.nodes).size() > nodes_of_block)
+    if (way > best || static_cast<int>(scrap.elements.size() + other.elements.size()) > limits.elements ||
+        static_cast<int>(together(scrap.nodes, other.nodes).size()) > limits.nodes)
       continue;
     best = way;
     nearest = &other;
@@ -74,7 +72,9 @@ bool join_nearest(const Assembly& assembly, const Scrap& scrap, std::vector<Scra
 }  // namespace
 
 void join_scraps(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first,
-                 std::size_t from) {
+                 std::size_t from, const BlockLimits& limits) {
+  // Blocks of at most so many elements are joined with others: a team takes as long for them as for a full one.
+  const int most_of_scrap = limits.elements / 2;
   std::vector<Scrap> scraps;
   std::vector<int> kept, kept_first;
   for (std::size_t p = from; p < first.size(); ++p) {
@@ -92,7 +92,7 @@ void join_scraps(const Assembly& assembly, std::vector<int>& elements, int begin
                    [](const Scrap& a, const Scrap& b) { return a.elements.size() > b.elements.size(); });
   std::vector<Scrap> joined;
   for (const Scrap& scrap : scraps)
-    if (!join_nearest(assembly, scrap, joined)) joined.push_back(scrap);
+    if (!join_nearest(assembly, scrap, limits, joined)) joined.push_back(scrap);
   for (const Scrap& scrap : joined) {
     kept_first.push_back(begin + static_cast<int>(kept.size()));
     kept.insert(kept.end(), scrap.elements.begin(), scrap.elements.end());

@@ -1,5 +1,6 @@
 #include "solve/checkpoint/run_state.hpp"
 
+#include "model/elements/edge_groups.hpp"
 #include "model/time_step/automatic_step.hpp"
 #include "solve/checkpoint/state_arrays.hpp"
 
@@ -52,6 +53,12 @@ void archive(Archive& archive_, StableStep& stable) {
 /// that needs the forces of the instant before.
 template <class Archive>
 void archive(Archive& archive_, Model& model) {
+  // All that follows is in the order of elements and nodes.
+  bool in_rows = wants_rows(model.in_single);
+  archive_.value("elements_in_rows", in_rows);
+  if (in_rows != wants_rows(model.in_single))
+    refuse_state("its order of elements",
+                 in_rows ? "is that of a processor, not of a GPU" : "is that of a GPU, not of a processor");
   archive_.value("step", model.step);
   archive_.value("step_count", model.step_count);
   archive_.value("step_size", model.step_size);

@@ -21,6 +21,27 @@ def coarse_variant():
     return re.findall(r"--set (\S+)", comment)
 
 
+class LooseTolerance(unittest.TestCase):
+    """Pressures are not renewed from states far from rest, however much may be left unbalanced."""
+
+    def test_it_settles_in_as_few_steps_as_with_a_tight_one(self):
+        steps = {}
+        with tempfile.TemporaryDirectory(prefix="railwave-joint-") as scratch:
+            for tolerance in ("1e-3", "2e-2"):
+                command = [PROGRAM, "run", CASE]
+                for override in [
+                    *coarse_variant(), f"output.file={scratch}/joint.h5", "settle.cache=false", "time.end=1e-6",
+                    f"settle.tolerance={tolerance}",
+                ]:
+                    command += ["--set", override]
+                done = subprocess.run([*command, "--overwrite"], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                found = re.search(r"settled after \d+ evaluations of the forces in (\d+) steps of Newton's", done.stdout)
+                self.assertIsNotNone(found, done.stdout)
+                steps[tolerance] = int(found[1])
+        self.assertLess(steps["2e-2"], 2 * steps["1e-3"])  # it took 81 steps in place of 9
+
+
 class OverTheGap(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/support/block_sum.hpp"
+#include "kernels/support/team_reduction.hpp"
 
 namespace railwave {
 
@@ -25,44 +25,32 @@ struct Largest {
     value[k] = ranked;
     place[k] = item;
   }
+
+  KOKKOS_INLINE_FUNCTION void join(const Largest& other) {
+    for (int k = 0; k < Values; ++k) add(k, other.value[k], other.place[k]);
+  }
 };
 
-/// `term(i, value)` gives an item's `Term::values` quantities.
+/// The largest of each block of items, found by a team. `term(i, value)` gives an item's `Term::values` quantities. The
+/// order of items does not matter.
 template <class Term>
 struct BlockLargest {
   Term term;
-  int count, blocks;
+  int count, block;  ///< items of all blocks and of one
   Largest<Term::values>* result;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     Largest<Term::values> largest;
     largest.clear();
-    // Threads of a device side by side read what lies side by side; the order does not matter.
-    const int stride = on_device ? blocks : 1;
-    const int begin = on_device ? b : b * sum_block;
-    const int end = on_device || begin + sum_block > count ? count : begin + sum_block;
-    for (int i = begin; i < end; i += stride) {
+    const int begin = team.league_rank() * block, end = count - begin < block ? count : begin + block;
+    // Threads of a device side by side read what lies side by side.
+    for (int i = begin + team.team_rank(); i < end; i += team.team_size()) {
       double value[Term::values];
       term(i, value);
       for (int k = 0; k < Term::values; ++k) largest.add(k, value[k], i);
     }
-    result[b] = largest;
-  }
-};
-
-/// Largest of what blocks have left.
-template <int Values>
-struct LeftLargest {
-  const Largest<Values>* left;
-  int count, blocks;
-  Largest<Values>* result;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
-    Largest<Values> largest;
-    largest.clear();
-    for (int i = b; i < count; i += blocks)
-      for (int k = 0; k < Values; ++k) largest.add(k, left[i].value[k], left[i].place[k]);
-    result[b] = largest;
+    join_team(team, largest, result[team.league_rank()]);
   }
 };
 

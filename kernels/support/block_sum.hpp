@@ -4,34 +4,25 @@
 
 namespace railwave {
 
-/// Items of a block: a GPU needs many blocks to be busy.
-inline constexpr int items_of_block = on_device ? 8 : 32;
-/// Blocks that are taken together.
+/// Items that a thread of a host sums, and such blocks that are taken together.
 inline constexpr int sum_block = 32;
-static_assert(on_device || items_of_block == sum_block);
 
-/// Sums `term(i)` (several values an item) over each block. `Term` has `static constexpr int values` and
-/// `void operator()(int, double*) const`, which adds an item's values.
+/// Sums `term(i)` over each block. `Term` as of sum_by_team().
 template <class Term>
 struct BlockSum {
   Term term;
-  int count, blocks;
+  int count;
   double* result;  ///< block after block
 
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
     double sum[Term::values] = {};
-    if constexpr (on_device) {
-      // A block is every so many items: threads side by side read what lies side by side.
-      for (int i = b; i < count; i += blocks) term(i, sum);
-    } else {
-      const int end = (b + 1) * sum_block < count ? (b + 1) * sum_block : count;
-      for (int i = b * sum_block; i < end; ++i) term(i, sum);
-    }
+    const int end = (b + 1) * sum_block < count ? (b + 1) * sum_block : count;
+    for (int i = b * sum_block; i < end; ++i) term(i, sum);
     for (int k = 0; k < Term::values; ++k) result[b * Term::values + k] = sum[k];
   }
 };
 
-/// The values of each item as they are. `Term` as of BlockSum.
+/// The values of each item as they are. `Term` as of sum_by_team().
 template <class Term>
 struct EachItem {
   Term term;

@@ -10,6 +10,8 @@ struct ReductionSpace {
   Array<double*> blocks;  ///< of the reduction at work
   Array<double*> left;    ///< of all that are queued
   PinnedArray<double*> fetched;
+  Array<unsigned char*> terms;  ///< of sums that have a launch together
+  PinnedArray<unsigned char*> terms_given;
 };
 
 }  // namespace railwave

@@ -12,24 +12,21 @@
 namespace railwave {
 
 /// Sums and largest values over many lists, and values of few items, fetched by the host all at once: a copy from a GPU
-/// takes as long as several small kernels. Items are taken together in blocks of fixed size, the blocks in blocks
-/// again, and the few that are left on the host, so a result is bitwise the same on any number of threads.
+/// takes as long as several small kernels. Items are taken together in blocks of a size that their number gives,
+/// and the few that are left on the host, so a result is bitwise the same on any number of threads.
 class Reductions {
  public:
   explicit Reductions(ReductionSpace& space) : space_(space) {}
 
   /// Queues the sum of `term` over `count` items.
-  /// @param term see BlockSum
+  /// @param term see sum_by_team()
   /// @param use use(const double* sum) gets Term::values numbers at the next fetch()
   template <class Term, class Use>
   void sum(const Term& term, int count, Use use) {
-    const auto add_left = [use](const double* left, int parts) {
-      double sum[Term::values] = {};
-      for (int p = 0; p < parts; ++p)
-        for (int k = 0; k < Term::values; ++k) sum[k] += left[p * Term::values + k];
-      use(static_cast<const double*>(sum));
-    };
-    reduce<BlockSum<Term>, BlockSum<LeftSum<Term::values>>, double>(term, count, Term::values, add_left);
+    if constexpr (on_device)
+      sum_by_teams(term, count, use);
+    else
+      sum_by_blocks(term, count, use);
   }
 
   /// Queues the largest of each of the quantities of `term` over `count` items, with the items that have them.
@@ -40,16 +37,21 @@ class Reductions {
     using Found = Largest<Term::values>;
     static_assert(sizeof(Found) % sizeof(double) == 0);
     constexpr int words = sizeof(Found) / sizeof(double);
-    reduce<BlockLargest<Term>, LeftLargest<Term::values>, Found>(
-        term, count, words, [use](const double* left, int parts) {
-          Found all, part;
-          all.clear();
-          for (int p = 0; p < parts; ++p) {
-            std::memcpy(&part, left + p * words, sizeof(Found));
-            for (int k = 0; k < Term::values; ++k) all.add(k, part.value[k], part.place[k]);
-          }
-          use(static_cast<const Found&>(all));
-        });
+    const int blocks = teams_of(count);
+    const std::size_t place = reserve(static_cast<std::size_t>(blocks) * words);
+    Found* const left = reinterpret_cast<Found*>(space_.left.data() + place);
+    if (blocks > 0)
+      Kokkos::parallel_for("block_largest", reduction_teams<Found>(blocks),
+                           BlockLargest<Term>{term, count, items_of_team(count), left});
+    queued_.push_back({place, blocks, [use](const double* found, int parts) {
+                         Found all, part;
+                         all.clear();
+                         for (int p = 0; p < parts; ++p) {
+                           std::memcpy(&part, found + p * words, sizeof(Found));
+                           all.join(part);
+                         }
+                         use(static_cast<const Found&>(all));
+                       }});
   }
 
   /// Queues the values of each of `count` items.
@@ -57,8 +59,8 @@ class Reductions {
   /// @param use use(const double*) gets Term::values numbers of the first item, then those of the next
   template <class Term, class Use>
   void each(const Term& term, int count, Use use) {
-    const std::size_t place = used_;
-    double* const values = reserve(static_cast<std::size_t>(count) * Term::values);
+    const std::size_t place = reserve(static_cast<std::size_t>(count) * Term::values);
+    double* const values = space_.left.data() + place;
     Kokkos::parallel_for("each_item", SpreadRange(0, count), EachItem<Term>{term, values});
     queued_.push_back({place, count, [use](const double* found, int /*items*/) { use(found); }});
   }
@@ -81,7 +83,54 @@ class Reductions {
     hand_out();
   }
 
+ protected:
+  /// Queues a sum of which `parts` are left, each Values numbers.
+  /// @return their place in what is left
+  template <int Values, class Use>
+  std::size_t queue_sum(int parts, Use use) {
+    const std::size_t place = reserve(static_cast<std::size_t>(parts) * Values);
+    queued_.push_back({place, parts, [use](const double* left, int of) {
+                         double sum[Values] = {};
+                         for (int p = 0; p < of; ++p)
+                           for (int k = 0; k < Values; ++k) sum[k] += left[p * Values + k];
+                         use(static_cast<const double*>(sum));
+                       }});
+    return place;
+  }
+
+  ReductionSpace& space() { return space_; }
+
  private:
+  template <class Term, class Use>
+  void sum_by_teams(const Term& term, int count, const Use& use) {
+    const int teams = teams_of(count);
+    const std::size_t place = queue_sum<Term::values>(teams, use);
+    using Found = Sums<Term::values>;
+    Found* const left = reinterpret_cast<Found*>(space_.left.data() + place);
+    if (teams > 0)
+      Kokkos::parallel_for("team_sum", reduction_teams<Found>(teams),
+                           TeamSum<Term>{term, count, items_of_team(count), left});
+  }
+
+  template <class Term, class Use>
+  void sum_by_blocks(const Term& term, int count, const Use& use) {
+    const auto blocks_of = [](int items) { return (items + sum_block - 1) / sum_block; };
+    const int blocks = blocks_of(count);
+    const bool twice = blocks > sum_block;
+    const int parts = twice ? blocks_of(blocks) : blocks;
+    const std::size_t place = queue_sum<Term::values>(parts, use);
+    double* const left = space_.left.data() + place;
+    if (twice) {
+      const std::size_t needed = static_cast<std::size_t>(blocks) * Term::values;
+      if (space_.blocks.extent(0) < needed) space_.blocks = unset_array<double*>("blocks of reductions", needed);
+      double* const first = space_.blocks.data();
+      Kokkos::parallel_for("sum_blocks", SpreadRange(0, blocks), BlockSum<Term>{term, count, first});
+      Kokkos::parallel_for("sum_left", SpreadRange(0, parts), BlockSum<LeftSum<Term::values>>{{first}, blocks, left});
+    } else if (blocks > 0) {
+      Kokkos::parallel_for("sum_blocks", SpreadRange(0, blocks), BlockSum<Term>{term, count, left});
+    }
+  }
+
   void copy_to_host() {
     if (space_.fetched.extent(0) < used_)
       space_.fetched = PinnedArray<double*>(Kokkos::view_alloc(std::string("fetched"), Kokkos::WithoutInitializing),
@@ -97,35 +146,14 @@ class Reductions {
     used_ = 0;
   }
 
-  /// Blocks whose results the host takes as they are: a second kernel takes a GPU longer than copying some more.
-  static constexpr int most_left = on_device ? 1024 : sum_block;
-
   struct Queued {
     std::size_t place;
     int parts;
     std::function<void(const double*, int)> use;
   };
 
-  template <class First, class Second, class Value, class Term, class Use>
-  void reduce(const Term& term, int count, int words, Use use) {
-    const int blocks = (count + items_of_block - 1) / items_of_block;
-    const bool twice = blocks > most_left;
-    const int parts = twice ? (blocks + sum_block - 1) / sum_block : blocks;
-    const std::size_t place = used_;
-    Value* const left = reinterpret_cast<Value*>(reserve(static_cast<std::size_t>(parts) * words));
-    if (twice) {
-      const std::size_t needed = static_cast<std::size_t>(blocks) * words;
-      if (space_.blocks.extent(0) < needed) space_.blocks = unset_array<double*>("blocks of reductions", needed);
-      Value* const first = reinterpret_cast<Value*>(space_.blocks.data());
-      Kokkos::parallel_for("reduce_blocks", SpreadRange(0, blocks), First{term, count, blocks, first});
-      Kokkos::parallel_for("reduce_left", SpreadRange(0, parts), Second{{first}, blocks, parts, left});
-    } else if (blocks > 0) {
-      Kokkos::parallel_for("reduce_blocks", SpreadRange(0, blocks), First{term, count, blocks, left});
-    }
-    queued_.push_back({place, parts, std::move(use)});
-  }
-
-  double* reserve(std::size_t words) {
+  /// @return the place in what is left
+  std::size_t reserve(std::size_t words) {
     if (space_.left.extent(0) < used_ + words) {
       const auto more = unset_array<double*>("left of reductions", 2 * (used_ + words));
       const auto used = Kokkos::make_pair(std::size_t{0}, used_);
@@ -133,7 +161,7 @@ class Reductions {
         Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(more, used), Kokkos::subview(space_.left, used));
       space_.left = more;
     }
-    double* const place = space_.left.data() + used_;
+    const std::size_t place = used_;
     used_ += words;
     return place;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 namespace railwave {
 
 /// Types that the program chooses from when a model is built.
@@ -11,6 +13,19 @@ template <class T>
 struct TypeOf {
   using type = T;
 };
+
+/// The place of a type in a list; that of the end where it is not there.
+template <class T, class... Types>
+constexpr int type_number(TypeList<Types...> /*list*/) {
+  int number = 0;
+  ((std::is_same_v<T, Types> || (++number, false)) || ...);
+  return number;
+}
+
+template <class T, class... Types>
+constexpr bool is_listed(TypeList<Types...> /*list*/) {
+  return (std::is_same_v<T, Types> || ...);
+}
 
 /// Calls `work(number, TypeOf<...>)` for each type of a list, on the host.
 template <class Work, class... Types>

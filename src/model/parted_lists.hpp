@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "kernels/support/parted_sums.hpp"
-#include "kernels/support/reductions.hpp"
 
 namespace railwave {
 
@@ -14,11 +13,10 @@ struct PartedLists {
   PartedItems items;
   std::vector<int> first_part;  ///< by list, one more than lists
   std::vector<int> block;       ///< of each part, among the blocks of all groups; -1: of none
-  int chunk_count = 0;
-  int values = 0;                        ///< numbers of a sum
-  Array<double*> chunk_sums, part_sums;  ///< values after values
-  bool whole = true;                     ///< this process sums all parts; false: the own ones alone
-  Array<int*> own_parts, own_chunks;
+  int values = 0;               ///< numbers of a sum
+  Array<double*> part_sums;     ///< values after values
+  bool whole = true;            ///< this process sums all parts; false: the own ones alone
+  Array<int*> own_parts;
 
   int list_count() const { return static_cast<int>(first_part.size()) - 1; }
   int part_count() const { return static_cast<int>(block.size()); }
@@ -41,30 +39,5 @@ std::vector<int> parts_of(const PartedLists& lists, const std::vector<char>& has
 
 /// From now on this process sums these parts alone.
 void keep_parts(PartedLists& lists, const std::vector<int>& parts);
-
-/// Sums the process's parts.
-/// @param term see BlockSum; it gets items' numbers among all
-template <class Term>
-void sum_parts(const PartedLists& lists, const Term& term) {
-  const int chunks = lists.whole ? lists.chunk_count : static_cast<int>(lists.own_chunks.extent(0));
-  const int parts = lists.whole ? lists.part_count() : static_cast<int>(lists.own_parts.extent(0));
-  if (chunks == 0) return;
-  Kokkos::parallel_for("sum_chunks", SpreadRange(0, chunks),
-                       ChunkSum<Term>{term, lists.items, lists.own_chunks, lists.chunk_sums.data()});
-  Kokkos::parallel_for(
-      "sum_parts", SpreadRange(0, parts),
-      PartSum<Term::values>{lists.items.first_chunk, lists.own_parts, lists.chunk_sums.data(), lists.part_sums.data()});
-}
-
-/// Queues the sums of all lists from those of their parts.
-/// @param use use(list, const double* sum) gets Values numbers of each list at the next fetch()
-template <int Values, class Use>
-void queue_lists(const PartedLists& lists, Reductions& sums, const Use& use) {
-  for (int l = 0; l < lists.list_count(); ++l) {
-    const int begin = lists.first_part[l], end = lists.first_part[l + 1];
-    sums.sum(LeftSum<Values>{lists.part_sums.data() + static_cast<long>(begin) * Values}, end - begin,
-             [use, l](const double* sum) { use(l, sum); });
-  }
-}
 
 }  // namespace railwave

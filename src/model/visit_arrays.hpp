@@ -63,11 +63,8 @@ void visit_arrays(const Named<Visitor>& visit, RelativeNodes& relative) {
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, PartedLists& lists) {
   visit(ArrayUse::constant, "part_items", lists.items.item);
-  visit(ArrayUse::constant, "part_chunks", lists.items.chunks);
-  visit(ArrayUse::constant, "first_chunks", lists.items.first_chunk);
+  visit(ArrayUse::constant, "first_items", lists.items.first);
   visit(ArrayUse::constant, "own_parts", lists.own_parts);
-  visit(ArrayUse::constant, "own_chunks", lists.own_chunks);
-  visit(ArrayUse::scratch, "chunk_sums", lists.chunk_sums);
   visit(ArrayUse::scratch, "part_sums", lists.part_sums);
 }
 
@@ -295,6 +292,7 @@ template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, ReductionSpace& space) {
   visit(ArrayUse::scratch, "blocks", space.blocks);
   visit(ArrayUse::scratch, "left", space.left);
+  visit(ArrayUse::scratch, "terms", space.terms);
 }
 
 template <class Visitor>

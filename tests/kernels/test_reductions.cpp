@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/support/joined_sums.hpp"
 #include "kernels/support/reductions.hpp"
 #include "model/host_copy.hpp"
 
@@ -27,6 +28,13 @@ struct Signed {
     value[0] = number(i);
     value[1] = -number(i);
   }
+};
+
+/// One, with a number's sign.
+struct Sign {
+  static constexpr int values = 1;
+  Array<const double*> number;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double* sum) const { sum[0] += number(i) < 0 ? -1 : 1; }
 };
 
 Largest<2> largest_of(const std::vector<double>& numbers) {
@@ -76,6 +84,52 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
   queue.fetch();
   queue.fetch();
   CHECK(asked == 1);
+}
+
+TEST_CASE("sums by terms of different types in one launch are those of each alone") {
+  using Terms = TypeList<Sign, LeftSum<3>, Powers>;
+  const std::vector<int> counts = {5, 0, 1, 128, 129, 70000, 33};
+  std::vector<Array<const double*>> numbers;
+  std::vector<std::vector<double>> lists;
+  for (int count : counts) {
+    lists.emplace_back();
+    for (int i = 0; i < count; ++i) lists.back().push_back(std::sin(2.0 + i * count));
+    numbers.push_back(to_device("numbers", lists.back()));
+  }
+  ReductionSpace space;
+  space.left = Array<double*>("left", 4000);
+  JoinedSums joined;
+  // Two launches before anything is fetched; the second needs more room for its terms.
+  std::vector<std::size_t> of_powers, of_signs;
+  std::size_t used = 0;
+  const auto add = [&](int type, const auto& term, int count, std::vector<std::size_t>& places) {
+    places.push_back(used);
+    joined.add(type, term, count, used);
+    used += static_cast<std::size_t>(teams_of(count)) * std::decay_t<decltype(term)>::values;
+  };
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    add(type_number<Powers>(Terms{}), Powers{numbers[c]}, counts[c], of_powers);
+    if (c == 2) joined.launch<Terms>(space);
+    add(type_number<Sign>(Terms{}), Sign{numbers[c]}, counts[c], of_signs);
+  }
+  joined.launch<Terms>(space);
+  joined.launch<Terms>(space);  // nothing
+  REQUIRE(used <= space.left.extent(0));
+  const auto left = to_host(space.left);
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    double sum[3] = {}, expected[3] = {};
+    for (double number : lists[c]) {
+      expected[0] += number;
+      expected[1] += number * number;
+      expected[2] += number < 0 ? -1 : 1;
+    }
+    for (int p = 0; p < teams_of(counts[c]); ++p) {
+      for (int k = 0; k < 2; ++k) sum[k] += left(of_powers[c] + 2 * p + k);
+      sum[2] += left(of_signs[c] + p);
+    }
+    for (int k = 0; k < 2; ++k) CHECK(std::fabs(sum[k] - expected[k]) <= 1e-14 * (1 + counts[c]));
+    CHECK(sum[2] == expected[2]);
+  }
 }
 
 TEST_CASE("of equal values the lowest item is reported, and what is no number is the largest") {

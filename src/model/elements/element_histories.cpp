@@ -8,6 +8,7 @@
 #include "model/elements/history_sets.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
+#include "model/sum_parts.hpp"
 
 namespace railwave {
 namespace {
@@ -178,7 +179,7 @@ void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes) {
                                             histories.plastic_strain});
 }
 
-void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, Reductions& sums) {
+void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, SampleSums& sums) {
   if (!elements.element_histories) return;
   const PartedLists& parts = elements.element_histories->parts;
   means.resize(parts.list_count());

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "kernels/nodes/nodes.hpp"
-#include "kernels/support/reductions.hpp"
 #include "model/elements/element_model.hpp"
 #include "model/elements/history_sets.hpp"
+#include "model/sample_sums.hpp"
 
 namespace railwave {
 
@@ -41,6 +41,6 @@ void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes);
 
 /// Queues the means of each of these sets from the sums of their parts: one for each set that resolve_history_sets()
 /// gives elements to. Quantities that no set asks for stay zero.
-void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, Reductions& sums);
+void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, SampleSums& sums);
 
 }  // namespace railwave

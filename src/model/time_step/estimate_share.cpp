@@ -21,10 +21,10 @@ double share_of_rank_0(int ranks) {
 /// Ranges begin where blocks of sums do.
 std::vector<int> ranges_of(int nodes, int ranks) {
   std::vector<int> first{0};
-  const int blocks = (nodes + items_of_block - 1) / items_of_block;
+  const int blocks = (nodes + sum_block - 1) / sum_block;
   const double first_share = share_of_rank_0(ranks);
   for (int r = 1; r < ranks; ++r)
-    first.push_back(static_cast<int>(blocks * (r - 1 + first_share) / (ranks - 1 + first_share)) * items_of_block);
+    first.push_back(static_cast<int>(blocks * (r - 1 + first_share) / (ranks - 1 + first_share)) * sum_block);
   first.push_back(nodes);
   return first;
 }
@@ -101,7 +101,7 @@ EstimateShare::EstimateShare(const AssembledScene& assembled, const NodalState& 
   for (const Neighbour& one : neighbours_) rows += one.sent.size();
   packed_.resize(3 * rows);
   const int all = ranges_.back(), own = own_count();
-  const int blocks = ((own_rank == 0 ? all : own) + items_of_block - 1) / items_of_block;
+  const int blocks = ((own_rank == 0 ? all : own) + sum_block - 1) / sum_block;
   sums_.resize(blocks);
 }
 
@@ -180,15 +180,14 @@ void EstimateShare::bring(const NodeVector& rows) const {
 }
 
 double EstimateShare::sum(const NodeVector& a, const NodeVector& b) const {
-  const int own = own_count(), blocks = (own + items_of_block - 1) / items_of_block;
+  const int own = own_count(), blocks = (own + sum_block - 1) / sum_block;
   if (own > 0)
-    Kokkos::parallel_for("reduce_blocks", SpreadRange(0, blocks),
-                         BlockSum<InnerProduct>{{a, b}, own, blocks, sums_.data()});
+    Kokkos::parallel_for("sum_blocks", SpreadRange(0, blocks), BlockSum<InnerProduct>{{a, b}, own, sums_.data()});
   double all = 0;
   if (transport_.rank() == 0) {
     for (int r = 1; r < transport_.ranks(); ++r) {
-      const int first = ranges_[r] / items_of_block;
-      const int count = (ranges_[r + 1] - ranges_[r] + items_of_block - 1) / items_of_block;
+      const int first = ranges_[r] / sum_block;
+      const int count = (ranges_[r + 1] - ranges_[r] + sum_block - 1) / sum_block;
       if (count > 0) transport_.start_receive(r, sums_.data() + first, sizeof(double) * count);
     }
     transport_.finish();

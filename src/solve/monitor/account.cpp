@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/loads/load_sums.hpp"
 #include "kernels/monitor/monitor_terms.hpp"
 #include "model/elements/element_histories.hpp"
+#include "model/sum_parts.hpp"
 #include "solve/monitor/energies.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
@@ -61,18 +63,9 @@ struct MeanMotionSum {
   }
 };
 
-/// Stored in connectors' springs, and dissipated in their dashpots.
-struct ConnectorEnergy {
-  static constexpr int values = 2;
-  Array<const double* [2]> energy;
-  KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const {
-    for (int k = 0; k < values; ++k) sum[k] += energy(c, k);
-  }
-};
-
 /// Everything that account_energies() gives, into `energy`, when the sums are fetched. Parts get theirs by
 /// share_out_energies(). Of nodes and elements the sums of all parts must be there.
-void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, Reductions& sums) {
+void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, SampleSums& sums) {
   const auto external = [&energy](const double* sum) { energy.external_work += *sum; };
   queue_lists<NodalEnergy::values>(model.node_parts, sums, [&energy](int, const double* sum) {
     energy.kinetic += sum[0];
@@ -130,7 +123,7 @@ void sum_all_parts(const Model& model, SampledSums what, double step, SampledRan
 EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
   sum_own_parts(model, SampledSums::energies, step);
-  Reductions sums(*model.reduction_space);
+  SampleSums sums(*model.reduction_space);
   queue_energies(model, step, energy, false, sums);
   sums.fetch();
   return energy;
@@ -169,7 +162,7 @@ void find_driven_changes(const NodalState& nodal, const MotionHistories& histori
 }
 
 /// Means of all histories of motion, when the sums are fetched.
-void queue_mean_motions(const PartedLists& parts, std::vector<MeanMotion>& means, Reductions& sums) {
+void queue_mean_motions(const PartedLists& parts, std::vector<MeanMotion>& means, SampleSums& sums) {
   means.resize(parts.list_count());
   queue_lists<MeanMotionSum::values>(parts, sums, [&means](int set, const double* sum) {
     for (int i = 0; i < 3; ++i) {
@@ -186,7 +179,7 @@ namespace {
 
 /// What histories need besides what the monitor does, when the sums are fetched.
 void queue_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others,
-                          Reductions& sums) {
+                          SampleSums& sums) {
   // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
   find_driven_changes(model, model.motion_histories);
   sum_all_parts(model, SampledSums::histories, step, others);
@@ -199,7 +192,7 @@ void queue_history_values(const Model& model, double step, HistorySample& sample
 
 /// What the present instant's sample has when the sums are fetched; contacts of each pair into `pairs`.
 void queue_sample(const Model& model, double step, bool by_part, SampledRanks* others, bool with_histories,
-                  HistorySample& sample, std::vector<ContactTotals>& pairs, Reductions& sums) {
+                  HistorySample& sample, std::vector<ContactTotals>& pairs, SampleSums& sums) {
   sample.time = model.time;
   sample.step = model.step;
   pairs.resize(model.contacts.size());
@@ -224,7 +217,7 @@ HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>
                         bool with_histories) {
   HistorySample sample;
   std::vector<ContactTotals> pairs;
-  Reductions sums(*model.reduction_space);
+  SampleSums sums(*model.reduction_space);
   queue_sample(model, step, by_part != nullptr, others, with_histories, sample, pairs, sums);
   sums.fetch();
   if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
@@ -240,7 +233,7 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
 }
 
 void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others) {
-  Reductions sums(*model.reduction_space);
+  SampleSums sums(*model.reduction_space);
   queue_history_values(model, step, sample, others, sums);
   sums.fetch();
 }
@@ -251,6 +244,7 @@ HistorySample take_sample(const Model& model, double step, std::vector<PartEnerg
 
 SampleUnderWay::SampleUnderWay(const Model& model, double step) : model_(model), sums_(*model.reduction_space) {
   queue_sample(model, step, false, nullptr, true, sample_, pairs_, sums_);
+  sums_.launch();
 }
 
 void SampleUnderWay::send(Milestone& done) { sums_.start_fetch(done); }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/support/reductions.hpp"
 #include "model/model.hpp"
+#include "model/sample_sums.hpp"
 #include "solve/monitor/sampled_ranks.hpp"
 #include "solve/observer.hpp"
 
@@ -55,7 +55,7 @@ class SampleUnderWay {
 
  private:
   const Model& model_;
-  Reductions sums_;
+  SampleSums sums_;
   HistorySample sample_;
   std::vector<ContactTotals> pairs_;
 };

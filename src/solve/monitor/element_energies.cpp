@@ -1,4 +1,5 @@
 #include "model/elements/block_launch.hpp"
+#include "model/elements/block_totals.hpp"
 #include "model/elements/materials.hpp"
 #include "solve/monitor/energies.hpp"
 
@@ -51,14 +52,6 @@ struct AddFlowWork {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int p = listed.extent(0) == 0 ? i : listed(i);
     for (int k = 0; k < flow_threads; ++k) sums(p, 3) += slot_sums(p * flow_threads + k);
-  }
-};
-
-struct BlockTotals {
-  static constexpr int values = energies_of_block;
-  Array<const double* [energies_of_block]> of;
-  KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
-    for (int k = 0; k < values; ++k) sum[k] += of(p, k);
   }
 };
 
@@ -116,7 +109,7 @@ void sum_block_energies(const ElementModel& model, const NodeArrays& nodes) {
   with_element_precision(model, [&](auto number) { sum_groups<decltype(number)>(model.elements, nodes); });
 }
 
-void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, Reductions& sums) {
+void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, SampleSums& sums) {
   for (const ElementGroup& group : model.elements) {
     sums.sum(BlockTotals{group.block_sums}, group.blocks.count, [&energy](const double* sum) {
       energy.internal += sum[0];

@@ -2,36 +2,14 @@
 #include <memory>
 #include <utility>
 
-#include "kernels/support/block_sum.hpp"
-#include "kernels/support/vector3.hpp"
+#include "kernels/loads/load_sums.hpp"
 #include "model/beams/beams.hpp"
 #include "solve/monitor/energies.hpp"
 
 namespace railwave {
 namespace {
 
-struct AmplitudeSum {
-  static constexpr int values = 3;
-  Array<const double* [3]> amplitude;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, double* sum) const {
-    for (int k = 0; k < 3; ++k) sum[k] += amplitude(i, k);
-  }
-};
-
-/// Area of facets along the outward normal, as they lie now (thesis eq. 2.18, one point).
-struct FacetSum {
-  static constexpr int values = 3;
-  Array<const double* [3]> position;
-  Array<const int* [4]> facets;
-  KOKKOS_INLINE_FUNCTION void operator()(int f, double* sum) const {
-    const Vector3 p0 = row(position, facets(f, 0)), p1 = row(position, facets(f, 1));
-    const Vector3 p2 = row(position, facets(f, 2)), p3 = row(position, facets(f, 3));
-    const Vector3 area = 0.5 * cross(p2 - p0, p3 - p1);
-    for (int k = 0; k < 3; ++k) sum[k] += area[k];
-  }
-};
-
-void queue_total(const NodalState& nodal, const LoadArrays& arrays, LoadTotals& totals, Reductions& sums) {
+void queue_total(const NodalState& nodal, const LoadArrays& arrays, LoadTotals& totals, SampleSums& sums) {
   const scene::Load& load = *arrays.load;
   const double factor = curve_value(arrays.curve, nodal.time);
   const auto forces = [&totals](double scale) {
@@ -57,7 +35,7 @@ void queue_total(const NodalState& nodal, const LoadArrays& arrays, LoadTotals& 
 
 /// Of a torque on a point the beams keep the account, of all other loads their contributions.
 void queue_work(const NodalState& nodal, const LoadArrays& load, const std::shared_ptr<BeamModel>& beams,
-                LoadTotals& totals, Reductions& sums) {
+                LoadTotals& totals, SampleSums& sums) {
   Array<const double*> work = nodal.external.work;
   int first = load.first, count = load.count * (load.load->type == scene::LoadType::pressure ? 4 : 1);
   if (load.beam_node >= 0) {
@@ -72,7 +50,7 @@ void queue_work(const NodalState& nodal, const LoadArrays& load, const std::shar
 }  // namespace
 
 void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
-                       std::vector<LoadTotals>& totals, Reductions& sums) {
+                       std::vector<LoadTotals>& totals, SampleSums& sums) {
   totals.resize(loads.loads.size());
   for (std::size_t l = 0; l < totals.size(); ++l) {
     queue_total(nodal, loads.loads[l], totals[l], sums);
@@ -80,7 +58,7 @@ void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const st
   }
 }
 
-void queue_reactions(const NodalState& nodal, std::vector<ReactionTotals>& totals, Reductions& sums) {
+void queue_reactions(const NodalState& nodal, std::vector<ReactionTotals>& totals, SampleSums& sums) {
   totals.resize(nodal.prescribed.size());
   for (std::size_t s = 0; s < totals.size(); ++s) {
     const PrescribedSet& set = nodal.prescribed[s];

@@ -21,7 +21,7 @@ Task rotation_task(const NodalState& nodal, const BeamModel& built) {
 }
 
 void queue_beam_energies(const NodalState& nodal, const BeamArrays& beams, double step, EnergyAccount& energy,
-                         Reductions& sums) {
+                         SampleSums& sums) {
   sums.sum(BeamEnergy{beams, nodal.nodes.position}, beams.count,
            [&energy](const double* sum) { energy.internal += *sum; });
   sums.sum(BeamKineticEnergy{{beams}, nodal.velocity_lag, step}, beams.node_count,

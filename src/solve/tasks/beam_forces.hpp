@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "kernels/beams/beam_rotation.hpp"
-#include "kernels/support/reductions.hpp"
 #include "model/beams/beams.hpp"
+#include "model/sample_sums.hpp"
 #include "solve/observer.hpp"
 #include "solve/tasks.hpp"
 
@@ -13,7 +13,7 @@ namespace railwave {
 
 /// Adds elastic and kinetic energy, and the work of moments, when the sums are fetched.
 void queue_beam_energies(const NodalState& nodal, const BeamArrays& beams, double step, EnergyAccount& energy,
-                         Reductions& sums);
+                         SampleSums& sums);
 
 /// One entry for each of the scene's beams, when the sums are fetched; or at once.
 void queue_beam_resultants(const BeamModel& built, const NodeArrays& nodes, std::vector<BeamResultants>& all,

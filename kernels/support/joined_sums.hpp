@@ -114,11 +114,19 @@ class JoinedSums {
       space.terms = unset_array<unsigned char*>("terms of sums", 2 * bytes_.size());
       space.terms_given = PinnedArray<unsigned char*>(
           Kokkos::view_alloc(std::string("terms given"), Kokkos::WithoutInitializing), 2 * bytes_.size());
-      copied_ = 0;
+      copied_ = space.terms_there = 0;
     }
-    const auto added = Kokkos::make_pair(copied_, bytes_.size());
-    std::memcpy(space.terms_given.data() + copied_, bytes_.data() + copied_, bytes_.size() - copied_);
-    Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(space.terms, added), Kokkos::subview(space.terms_given, added));
+    unsigned char* const given = space.terms_given.data();
+    // Most samples have the terms of the one before: little of them changes with time.
+    const bool there = bytes_.size() <= space.terms_there &&
+                       std::memcmp(given + copied_, bytes_.data() + copied_, bytes_.size() - copied_) == 0;
+    if (!there) {
+      std::memcpy(given + copied_, bytes_.data() + copied_, bytes_.size() - copied_);
+      const auto added = Kokkos::make_pair(copied_, bytes_.size());
+      Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(space.terms, added),
+                        Kokkos::subview(space.terms_given, added));
+      space.terms_there = std::max(space.terms_there, bytes_.size());
+    }
     copied_ = bytes_.size();
   }
 

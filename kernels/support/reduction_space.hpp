@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "kernels/support/spaces.hpp"
 
 namespace railwave {
@@ -12,6 +14,7 @@ struct ReductionSpace {
   PinnedArray<double*> fetched;
   Array<unsigned char*> terms;  ///< of sums that have a launch together
   PinnedArray<unsigned char*> terms_given;
+  std::size_t terms_there = 0;  ///< bytes of these that the device has
 };
 
 }  // namespace railwave

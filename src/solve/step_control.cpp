@@ -81,6 +81,13 @@ bool StepControl::due() const {
          (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
 }
 
+bool StepControl::looks_at_model() const {
+  if (deformed_.due(nodal_.step)) return true;
+  // Unless the step is chosen automatically, due() itself looks.
+  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
+  return automatic ? due() : may_renew_estimate(nodal_.step);
+}
+
 /// Whole steps from the present instant to the end; whether they are others than planned before.
 bool StepControl::plan() {
   const double left = scene_.time.end - nodal_.time;

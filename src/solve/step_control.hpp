@@ -32,6 +32,9 @@ class StepControl {
   /// Whether the estimate is to be renewed now: then it looks at the whole model.
   bool due() const;
 
+  /// Whether the present step looks at the model: at its elements, or for another estimate.
+  bool looks_at_model() const;
+
   /// Renews the estimate where that is due, and follows deformed elements; call before the forces of the present
   /// instant, which move nodes already. True: the step from this instant to the next is another one than the last.
   bool renew();

@@ -205,7 +205,7 @@ class TimeLoop {
   /// The size of this step, and whether its instant is sampled.
   void plan_step() {
     const double size_before = model_.step_size;
-    if (memory_.control.may_renew(model_.step)) {
+    if (memory_.control.looks_at_model()) {
       finish_late_history();  // it has the place of sums that are wanted now
       recording_.finish();
     }

@@ -6,6 +6,7 @@
 #include "case/scene.hpp"
 #include "kernels/contact/contact_arrays.hpp"
 #include "kernels/contact/multiplier_arrays.hpp"
+#include "kernels/support/milestone.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/assembly.hpp"
 
@@ -33,7 +34,10 @@ struct ContactPair {
   Array<double*> counted;     ///< N/m by slave: its spring that is counted in the step, see FindNearNodes; empty where
                               ///< nobody asks (automatic_step.hpp)
   Array<int*> uncounted;      ///< one: nodes that can touch by the last check, and are not counted
-  long near_checked_at = -1;  ///< step of that check
+  PinnedArray<int*> uncounted_sent;                 ///< the same, as the device has sent it
+  Milestone uncounted_arrives;                      ///< when it has
+  long uncounted_of = -1;                           ///< the step whose check that is; -1: the device has it alone
+  long near_checked_at = -1;                        ///< step of the last check
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes

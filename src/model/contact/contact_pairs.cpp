@@ -176,6 +176,7 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
   pair.growth = largest_growth(contact);
   pair.missed = Array<int*>("missed", 1);
   pair.uncounted = Array<int*>("uncounted", 1);
+  pair.uncounted_sent = PinnedArray<int*>("uncounted, sent", 1);
   return pair;
 }
 

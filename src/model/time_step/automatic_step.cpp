@@ -140,9 +140,22 @@ bool contact_checked_before(const std::vector<ContactPair>& contacts, long step)
   });
 }
 
+namespace {
+
+/// Nodes that can touch by a pair's last check and are not counted. The device may have launches to do behind that
+/// check: none of them is waited for.
+int uncounted_nodes(const ContactPair& pair) {
+  // A state that was taken up has the number, but it was not sent.
+  if (pair.uncounted_of != pair.near_checked_at) return to_host(pair.uncounted)(0);
+  pair.uncounted_arrives.wait();
+  return pair.uncounted_sent(0);
+}
+
+}  // namespace
+
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
-    return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1 && to_host(pair.uncounted)(0) > 0;
+    return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1 && uncounted_nodes(pair) > 0;
   });
 }
 

@@ -85,6 +85,7 @@ void save_model_state(Model& model, RunState& state) {
 void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
   archive(restorer, model);
+  for (ContactPair& pair : model.contacts) pair.uncounted_of = -1;
   keep_choice(model);
   if (model.relative.begun) place_frames(model.elements, model);
 }

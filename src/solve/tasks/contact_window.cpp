@@ -285,6 +285,10 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   apart_parallel_for(space, "near_nodes", pair.window.count,
                      FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
                                    first || laid_out, pair.missed, pair.counted, pair.uncounted});
+  if (pair.counted.extent(0) == 0) return;
+  Kokkos::deep_copy(space, pair.uncounted_sent, pair.uncounted);
+  pair.uncounted_arrives.put(space);
+  pair.uncounted_of = nodal.step;
 }
 
 std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts) {

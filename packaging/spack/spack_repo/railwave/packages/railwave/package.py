@@ -5,7 +5,7 @@ from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
 
 from spack.package import *
 
-CHECKOUT = pathlib.Path(__file__).resolve().parents[5]
+CHECKOUT = pathlib.Path(__file__).resolve().parents[6]
 
 
 class Railwave(CMakePackage):

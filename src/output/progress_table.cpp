@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "case/memory.hpp"
 #include "output/histories/history_values.hpp"

@@ -3,6 +3,7 @@
 import numpy as np
 from comparison import Figure, contact_times
 from deck_writer import Deck, card, quarter_ball
+from radioss_deck import Model
 
 
 class Balls:
@@ -11,6 +12,7 @@ class Balls:
     name, units = "balls", "mm,t,s"
     source = "two steel balls meet [Johnson 1985, 11.4]"
     radius, youngs, poisson, density, speed = 10.0, 210e3, 0.3, 7.85e-9, 5e3  # mm, MPa, -, t/mm3, mm/s
+    radioss = Model(("Mg", "mm", "s"), density, youngs, poisson, (speed / 2, -speed / 2), 6e-5, 5e-8)
 
     def deck(self, coarse):
         deck = Deck("two balls")

@@ -3,6 +3,7 @@
 import numpy as np
 from comparison import Figure, contact_times
 from deck_writer import Deck, card
+from radioss_deck import Model
 
 # Steel in kg, mm, ms, and so kN, GPa and J; a bar of 10 by 10 by 500 mm at m/s.
 YOUNGS, DENSITY, SIDE, LENGTH = 210.0, 7.85e-6, 10.0, 500.0
@@ -144,6 +145,7 @@ class TwoBars:
     name, units = "two_bars", "mm,kg,ms"
     source = "two elastic bars meet [Kolsky 1963]"
     speed = 10.0
+    radioss = Model(("kg", "mm", "ms"), DENSITY, YOUNGS, 0.0, (0.0, -speed), 0.3, 1e-4)
 
     def deck(self, coarse):
         deck = Deck("two bars")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The study of decks whole: figures within 5 % of theory, contact forces and energy balances closer."""
+"""The study of decks whole: figures within 5 % of theory and of OpenRadioss; forces, energy balances and impacts on
+walls closer."""
 
 import csv
 import os
@@ -21,10 +22,16 @@ class Whole(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout[-4000:] + done.stderr[-4000:])
             with open(pathlib.Path(folder) / "table.csv", newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))
+            with open(pathlib.Path(folder) / "openradioss.csv", newline="", encoding="utf-8") as file:
+                beside = list(csv.DictReader(file))
         forces = [row for row in rows if "force" in row["what"]]
         balances = [row for row in rows if row["what"].startswith("error of the energy balance")]
         self.assertEqual((len(forces), len(balances)), (4, 5))
         for row in forces:
+            self.assertLess(abs(float(row["off by"].split()[0])), 2, row)
+        compared = [row for row in beside if row["found"]]
+        self.assertEqual((len(beside) - len(compared), len(compared)), (5, 17))
+        for row in compared[:9]:  # impacts on walls, without penalty springs
             self.assertLess(abs(float(row["off by"].split()[0])), 2, row)
         for row in balances:
             self.assertLess(float(row["found"].split()[0]), 0.3, row)  # Taylor's bar, coarse: 0.14 %

@@ -1,6 +1,7 @@
 #include "model/ranks/block_partition.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,13 +1,22 @@
-# A recipe for Spack, untried: docs/install.md says why, and how it is used.
+# A recipe for Spack 1; docs/install.md says how it is used and what was tried.
+import pathlib
+
+from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
+
 from spack.package import *
+
+CHECKOUT = pathlib.Path(__file__).resolve().parents[6]
 
 
 class Railwave(CMakePackage):
     """Explicit finite elements for the dynamic interaction of wheel and rail: frictional rolling contact and the
     high-frequency dynamics of wheel, rail and track in one calculation."""
 
-    # No homepage, url or git yet: build from a checkout with `spack dev-build`.
+    # Railwave has no address yet: what is fetched is the checkout that this recipe lies in.
+    git = CHECKOUT.as_uri()
+
     license("Apache-2.0")
+
     version("main", branch="main")
 
     variant("mpi", default=True, description="Runs over several processes")
@@ -17,7 +26,7 @@ class Railwave(CMakePackage):
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.21:", type="build")
-    depends_on("ninja", type="build")
+    generator("ninja")
     # The completion and the manual page are written by Python.
     depends_on("python@3.9:", type="build")
 
@@ -27,7 +36,7 @@ class Railwave(CMakePackage):
     depends_on("zlib-api")
     depends_on("eigen@3.4:3")
     depends_on("fmt@9:")
-    depends_on("spdlog@1.10: +fmt_external")
+    depends_on("spdlog@1.10:")
     depends_on("tomlplusplus@3:", type="build")
     depends_on("nlohmann-json@3:", type="build")
     depends_on("cli11@2:", type="build")
@@ -41,8 +50,6 @@ class Railwave(CMakePackage):
     depends_on("py-h5py", when="+pictures", type="run")
     depends_on("py-matplotlib", when="+pictures", type="run")
     depends_on("py-pillow", when="+pictures", type="run")
-
-    generator("ninja")
 
     def cmake_args(self):
         arguments = [

@@ -21,7 +21,7 @@ namespace {
 
 std::vector<ElementMeans> means_of(const Model& model) {
   std::vector<ElementMeans> means;
-  Reductions sums(*model.reduction_space);
+  SampleSums sums(*model.reduction_space);
   sum_element_parts(model, model.nodes);
   queue_element_means(model, means, sums);
   sums.fetch();

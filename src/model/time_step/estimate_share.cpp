@@ -124,7 +124,8 @@ void EstimateShare::take_nodes(const AssembledScene& whole, const NodalState& no
   nodal_.nodes.count = static_cast<int>(numbers.size());
   nodal_.nodes.mass = to_device("mass", mass);
   nodal_.nodes.constraint = to_device("constraint", constraint);
-  nodal_.nodes.position = to_device("position", assembled_.assembly.nodes);
+  nodal_.nodes.reference = to_device("reference", assembled_.assembly.nodes);
+  nodal_.nodes.position = nodal_.nodes.reference;
   nodal_.constraints = nodal.constraints;
 }
 

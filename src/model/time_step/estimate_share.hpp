@@ -28,8 +28,8 @@ class EstimateShare {
   /// Without masses, which nodal() has.
   const AssembledScene& assembled() const { return assembled_; }
   const NodalState& nodal() const { return nodal_; }
-  /// Number in the whole scene of the first of the rank's nodes.
-  int first_node() const { return ranges_[transport_.rank()]; }
+  /// One more than the number of the scene's last node, counted from the first of the rank's nodes.
+  int end_of_scene() const { return ranges_.back() - first_node(); }
 
   /// Springs of contacts on the rank's nodes.
   ContactOnNodes own_part(const ContactOnNodes& whole) const;
@@ -51,6 +51,8 @@ class EstimateShare {
     int first_received, received_count;
   };
 
+  /// Number in the whole scene of the first of the rank's nodes.
+  int first_node() const { return ranges_[transport_.rank()]; }
   int own_count() const { return ranges_[transport_.rank() + 1] - first_node(); }
   void take_elements(const AssembledScene& whole, const std::vector<int>& others);
   void take_nodes(const AssembledScene& whole, const NodalState& nodal, const std::vector<int>& others);

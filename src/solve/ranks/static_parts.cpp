@@ -12,11 +12,6 @@ namespace {
 
 enum class Order : int { place, apply, end };
 
-/// Of a rank's nodes and elements.
-struct Size {
-  int own = 0, nodes = 0, elements = 0, parts = 0;
-};
-
 /// First nodes of the ranks' ranges, and the number of nodes at the end: alike many corners of elements for each.
 std::vector<int> ranges_of(const Assembly& assembly, int ranks) {
   const int nodes = static_cast<int>(assembly.nodes.size());
@@ -37,7 +32,10 @@ std::vector<int> ranges_of(const Assembly& assembly, int ranks) {
 
 /// A rank's elements, with numbers of its own for their nodes.
 struct StaticParts::Part {
-  Size size;
+  /// Numbers of nodes, elements and parts of the scene.
+  struct Size {
+    int own = 0, nodes = 0, elements = 0, parts = 0;
+  } size;
   Assembly assembly;
   std::vector<ElementStiffness> stiffness;  ///< by part of the scene
   std::unique_ptr<TangentOperator> tangent;

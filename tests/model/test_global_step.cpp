@@ -3,7 +3,9 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <numeric>
 #include <random>
+#include <set>
 
+#include "model/time_step/estimate_share.hpp"
 #include "model/time_step/global_step.hpp"
 #include "tests/verify/tied_blocks.hpp"
 
@@ -94,4 +96,42 @@ TEST_CASE("a spring between point masses at one place is in the whole scene's st
   Model model;
   build_model(scene, model);
   CHECK_THAT(model.stable_step.global, WithinRel(2 / std::sqrt(2 * stiffness / mass), GlobalEstimate::tolerance));
+}
+
+TEST_CASE("elements around a range of nodes are all that have one of them, in order, and number their nodes anew") {
+  const scene::Scene scene = TwoBlocks().scene(1);
+  const Assembly whole = assemble(scene);
+  const int nodes = static_cast<int>(whole.nodes.size()), of_first = whole.parts[0].node_count;
+  // Inside a part, over both, of everything, of nothing.
+  const int ranges[][2] = {{40, 90}, {of_first - 100, of_first + 300}, {0, nodes}, {17, 17}};
+  for (const auto& [begin, end] : ranges) {
+    INFO("nodes " << begin << " to " << end << " of " << nodes);
+    const ElementsAround around = elements_around(whole, begin, end);
+    std::vector<CornerNodes> elements;
+    std::vector<int> counts;
+    std::set<int> others;
+    for (const auto& part : whole.parts) {
+      const std::size_t before = elements.size();
+      for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
+        std::set<int> outside;
+        for (int n : whole.elements[e])
+          if (n < begin || n >= end) outside.insert(n);
+        if (outside.size() == 8) continue;
+        elements.push_back(whole.elements[e]);
+        others.insert(outside.begin(), outside.end());
+      }
+      counts.push_back(static_cast<int>(elements.size() - before));
+    }
+    CHECK((around.others == std::vector<int>(others.begin(), others.end())));
+    REQUIRE(around.parts.size() == counts.size());
+    for (std::size_t p = 0; p < counts.size(); ++p) {
+      CHECK(around.parts[p].element_count == counts[p]);
+      CHECK(around.parts[p].first_element == (p == 0 ? 0 : counts[0]));
+      CHECK(around.parts[p].first_node == whole.parts[p].first_node);
+    }
+    std::vector<CornerNodes> found = around.elements;
+    for (CornerNodes& corners : found)
+      for (int& n : corners) n = n < end - begin ? begin + n : around.others[n - (end - begin)];
+    CHECK((found == elements));
+  }
 }

@@ -65,7 +65,7 @@ class Extruder {
     return inner_[key] = add_node(-1, station, point, stations_.position[station] + towards_middle);
   }
 
-  void add_element(std::array<int, 8> nodes, int quad, int station) {
+  void add_element(CornerNodes nodes, int quad, int station) {
     if (turned_)
       for (int i = 0; i < 4; ++i) std::swap(nodes[i], nodes[i + 4]);
     result_.mesh.elements.push_back(nodes);
@@ -76,7 +76,7 @@ class Extruder {
   void add_plain(int number) {
     const SectionQuad& quad = section_.quads[number];
     for (const auto& [first, last] : cells(quad.level)) {
-      std::array<int, 8> nodes{};
+      CornerNodes nodes{};
       for (int i = 0; i < 4; ++i) {
         nodes[i] = node(quad.nodes[i], first);
         nodes[i + 4] = node(quad.nodes[i], last);

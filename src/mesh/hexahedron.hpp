@@ -10,7 +10,7 @@ namespace railwave {
 
 using HexahedronCorners = std::array<Vec3, 8>;
 
-inline HexahedronCorners corners_of(const std::vector<Vec3>& nodes, const std::array<int, 8>& element) {
+inline HexahedronCorners corners_of(const std::vector<Vec3>& nodes, const CornerNodes& element) {
   HexahedronCorners corners;
   for (int N = 0; N < 8; ++N) corners[N] = nodes[element[N]];
   return corners;

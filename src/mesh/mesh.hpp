@@ -22,11 +22,14 @@ struct Face {
 inline constexpr int hexahedron_face_corners[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                                       {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
+/// The nodes at a hexahedron's corners, in the order above.
+using CornerNodes = std::array<int, 8>;
+
 /// A mesh of 8-node hexahedra on the host, in metres. Node and element numbers are positions in the vectors, from 0.
 /// Every name of a set is usable in a case file as `part.name`.
 struct Mesh {
   std::vector<Vec3> nodes;
-  std::vector<std::array<int, 8>> elements;
+  std::vector<CornerNodes> elements;
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> element_sets;
   std::map<std::string, std::vector<Face>> surfaces;

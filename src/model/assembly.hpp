@@ -29,7 +29,7 @@ struct Assembly {
   };
 
   std::vector<Vec3> nodes;  ///< as placed, undeformed, m
-  std::vector<std::array<int, 8>> elements;
+  std::vector<CornerNodes> elements;
   std::vector<PartRange> parts;
   std::vector<int> point_nodes;  ///< node of each of scene.points
   std::vector<BeamChain> beam_chains;

@@ -9,11 +9,10 @@ namespace railwave {
 namespace {
 
 using Position = Array<double* [3]>::HostMirror;
-using Corners = std::array<int, 8>;
 using Block = Eigen::Matrix<double, 24, 24>;
 
 /// Columns are the corner forces (row 3 N + i) of unit displacements of corners.
-Block element_matrix(const ElementStiffness& stiffness, const Corners& corners, const Position& position) {
+Block element_matrix(const ElementStiffness& stiffness, const CornerNodes& corners, const Position& position) {
   double x[3][7];
   for (int i = 0; i < 3; ++i) {
     double place[8];
@@ -38,7 +37,7 @@ class Collector {
 
   void reserve(std::size_t entries) { entries_.reserve(entries); }
 
-  void add_element(const Block& block, const Corners& corners) {
+  void add_element(const Block& block, const CornerNodes& corners) {
     for (int A = 0; A < 8; ++A)
       unknowns_.each(corners[A], [&](int row, const ModeUnknowns::Shares& of_row) {
         for (int B = 0; B < 8; ++B)
@@ -110,7 +109,7 @@ StiffnessMatrix stiffness_matrix(const AssembledScene& assembled, const NodeArra
   for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
     const auto& range = assembled.assembly.parts[p];
     for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const Corners& corners = assembled.assembly.elements[e];
+      const CornerNodes& corners = assembled.assembly.elements[e];
       collector.add_element(element_matrix(stiffness[p], corners, position), corners);
     }
   }

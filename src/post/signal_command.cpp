@@ -72,13 +72,13 @@ SignalInput read(const SignalRequest& request, const ResultsReader& results) {
 
 void fill(const hdf5::Group& root, const SignalInput& input, const SignalReport& report, const char* kind) {
   root.set_attribute("kind", kind);
-  std::vector<std::string> names, units;
+  std::vector<std::string> names, channel_units;
   for (const HistoryChannel* channel : input.channels()) {
     names.push_back(channel->name);
-    units.push_back(channel->unit);
+    channel_units.push_back(channel->unit);
   }
   root.set_attribute("channels", names);
-  root.set_attribute("units", units);
+  root.set_attribute("units", channel_units);
   root.set_attribute("start", input.time(0));
   root.set_attribute("interval", input.interval());
   root.set_attribute("low", input.request.low);

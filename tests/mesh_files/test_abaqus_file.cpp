@@ -154,7 +154,7 @@ TEST_CASE("nodes of no element are left out with a note, and positions stay righ
                        &notes);
   REQUIRE(mesh.nodes.size() == 12);
   CHECK(mesh.nodes[0] == Vec3{0, 0, 0});
-  CHECK(mesh.elements[0] == std::array<int, 8>{0, 1, 2, 3, 4, 5, 6, 7});
+  CHECK(mesh.elements[0] == CornerNodes{0, 1, 2, 3, 4, 5, 6, 7});
   CHECK(mesh.node_sets.at("mixed") == std::vector<int>{8});
   CHECK(mesh.node_sets.count("lonely") == 0);
   REQUIRE(notes.size() == 2);

@@ -10,7 +10,7 @@ using namespace railwave;
 
 namespace {
 
-using Elements = std::vector<std::array<int, 8>>;
+using Elements = std::vector<CornerNodes>;
 
 /// A box of 4 by 4 by 8 elements, two by two by two as blocks are divided.
 Elements box() {

@@ -53,7 +53,7 @@ template <class Act>
 void each_block(const Assembly& assembly, const Rows& rows, const Act& act) {
   for (std::size_t p = 0; p < rows.first.size(); ++p) {
     const int end = p + 1 < rows.first.size() ? rows.first[p + 1] : rows.left;
-    std::vector<std::array<int, 8>> elements;
+    std::vector<CornerNodes> elements;
     std::vector<int> nodes;
     for (int k = rows.first[p]; k < end; ++k) {
       elements.push_back(assembly.elements[rows.elements[k]]);
@@ -108,7 +108,7 @@ TEST_CASE("blocks of rows hold each element once, keep to their limits and share
   REQUIRE(!rows.first.empty());
   CHECK(rows.first.front() == 0);
   std::size_t with_edges = 0, edges = 0;
-  each_block(assembly, rows, [&](const std::vector<std::array<int, 8>>& elements, int nodes) {
+  each_block(assembly, rows, [&](const std::vector<CornerNodes>& elements, int nodes) {
     CHECK(elements.size() <= elements_of_block);
     CHECK(nodes <= nodes_of_block);
     CHECK(elements.size() % elements_of_group == 0);
@@ -157,7 +157,7 @@ TEST_CASE("the edges of a group are those of its elements, turned like one anoth
   const std::set<std::pair<int, int>> joined{{0, 1}, {1, 2}, {2, 3}, {0, 3}, {4, 5}, {5, 6},
                                              {6, 7}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   int checked = 0;
-  each_block(assembly, rows, [&](const std::vector<std::array<int, 8>>& elements, int nodes) {
+  each_block(assembly, rows, [&](const std::vector<CornerNodes>& elements, int nodes) {
     const EdgeGroups groups = edge_groups(elements);
     for (std::size_t g = 0; g < groups.of_group.size(); ++g)
       for (int lane = 0; lane < elements_of_group; ++lane) {

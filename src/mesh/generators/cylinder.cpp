@@ -101,7 +101,7 @@ Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   for (int k = 0; k < layers; ++k)
     for (int c = 0; c < cells; ++c) {
       const int element = static_cast<int>(mesh.elements.size());
-      std::array<int, 8> corners{};
+      CornerNodes corners{};
       for (int i = 0; i < 4; ++i) {
         corners[i] = k * nodes + section.cells[c][i];
         corners[4 + i] = (k + 1) * nodes + section.cells[c][i];

@@ -121,7 +121,7 @@ void add_axle(const scene::WheelsetMesh& w, const WheelBody& body, Mesh& mesh) {
     for (int c = 0; c < static_cast<int>(disc.cells.size()); ++c) {
       // x, z and -y are right-handed: the section's cells rise towards the axle's middle.
       const int element = static_cast<int>(mesh.elements.size());
-      std::array<int, 8> corners{};
+      CornerNodes corners{};
       for (int i = 0; i < 4; ++i) {
         corners[i] = number[l + 1][disc.cells[c][i]];
         corners[4 + i] = number[l][disc.cells[c][i]];

@@ -57,7 +57,7 @@ Bounds common(const Bounds& a, const Bounds& b) {
 }
 
 /// Whether the element's own coordinates of a place are well inside it, by Newton's method on the trilinear map.
-bool well_inside(const Assembly& assembly, const std::array<int, 8>& element, const Vec3& x) {
+bool well_inside(const Assembly& assembly, const CornerNodes& element, const Vec3& x) {
   constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   Vec3 local{0, 0, 0};

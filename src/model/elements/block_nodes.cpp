@@ -12,7 +12,7 @@ namespace {
 int rounds_of(const BlockNode& node) { return (node.corners + corners_at_once - 1) / corners_at_once; }
 
 /// Nodes that threads ask for at once, each once: request by request, one for each corner of each group of threads.
-std::vector<std::vector<int>> requests_of(const std::vector<std::array<int, 8>>& elements, int threads) {
+std::vector<std::vector<int>> requests_of(const std::vector<CornerNodes>& elements, int threads) {
   std::vector<std::vector<int>> requests;
   for (std::size_t first = 0; first < elements.size(); first += threads)
     for (int N = 0; N < 8; ++N) {
@@ -27,7 +27,7 @@ std::vector<std::vector<int>> requests_of(const std::vector<std::array<int, 8>>&
 /// Exchanges nodes of a warp as long as that makes fewer of those that are asked for at once lie in one bank.
 class BankOrder {
  public:
-  BankOrder(const std::vector<std::array<int, 8>>& elements, int banks, std::vector<int>& place)
+  BankOrder(const std::vector<CornerNodes>& elements, int banks, std::vector<int>& place)
       : banks_(banks), place_(place), requests_(place.size()) {
     const auto requests = requests_of(elements, banks);
     in_bank_.assign(requests.size() * banks, 0);
@@ -99,7 +99,7 @@ void order_for_packs(std::vector<BlockNode>& nodes) {
   });
 }
 
-void order_for_warps(const std::vector<std::array<int, 8>>& elements, int banks, std::vector<BlockNode>& nodes) {
+void order_for_warps(const std::vector<CornerNodes>& elements, int banks, std::vector<BlockNode>& nodes) {
   const int count = static_cast<int>(nodes.size());
   std::vector<int> ordered(count);
   std::iota(ordered.begin(), ordered.end(), 0);
@@ -125,7 +125,7 @@ void order_for_warps(const std::vector<std::array<int, 8>>& elements, int banks,
   for (int n = 0; n < count; ++n) nodes[place[n]] = before[n];
 }
 
-int bank_turns(const std::vector<std::array<int, 8>>& elements, int banks, const std::vector<int>& place) {
+int bank_turns(const std::vector<CornerNodes>& elements, int banks, const std::vector<int>& place) {
   int turns = 0;
   for (const std::vector<int>& nodes : requests_of(elements, banks)) {
     std::vector<int> in_bank(banks, 0);

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <array>
 #include <vector>
+
+#include "mesh/mesh.hpp"
 
 namespace railwave {
 
@@ -25,11 +26,11 @@ inline constexpr int warp_lanes = 32;
 /// memory: values whose places differ by a multiple of `banks` come one after the other.
 /// @param elements the block's, each with its corners' places in `nodes`
 /// @param banks of a value's size, and threads that ask at once: 16 in double precision, 32 in single
-void order_for_warps(const std::vector<std::array<int, 8>>& elements, int banks, std::vector<BlockNode>& nodes);
+void order_for_warps(const std::vector<CornerNodes>& elements, int banks, std::vector<BlockNode>& nodes);
 
 /// How long the corners of a block's elements are asked for, in turns of the banks: for each corner and each group of
 /// threads that ask at once, the most values of one bank.
 /// @param place of each node, by its place in `nodes` when `elements` were numbered
-int bank_turns(const std::vector<std::array<int, 8>>& elements, int banks, const std::vector<int>& place);
+int bank_turns(const std::vector<CornerNodes>& elements, int banks, const std::vector<int>& place);
 
 }  // namespace railwave

@@ -17,15 +17,16 @@ constexpr double worth_of_row = 0.3;
 
 void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
                         std::vector<int>& first) {
-  std::vector<int> grown = elements, first_grown = first;
-  halve_into_blocks(assembly, elements, begin, end, first);
+  std::vector<int> grown = elements, first_halved, first_grown;
+  halve_into_blocks(assembly, elements, begin, end, first_halved);
   // Full ones all of them: growing cannot do better, and takes a second for a million elements.
-  const std::size_t fewest = first_grown.size() + (end - begin + elements_of_block - 1) / elements_of_block;
-  if (fewest >= worthwhile_share * first.size()) return;
-  grow_blocks(assembly, grown, begin, end, first_grown);
-  if (first_grown.size() >= worthwhile_share * first.size()) return;
-  std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
-  first = std::move(first_grown);
+  const std::size_t fewest = (end - begin + elements_of_block - 1) / elements_of_block;
+  const double few = worthwhile_share * static_cast<double>(first_halved.size());
+  if (fewest < few) grow_blocks(assembly, grown, begin, end, first_grown);
+  const bool grows = fewest < few && first_grown.size() < few;
+  if (grows) std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
+  const std::vector<int>& found = grows ? first_grown : first_halved;
+  first.insert(first.end(), found.begin(), found.end());
 }
 
 /// Blocks of 5 x 5 x 5 elements have the fewest nodes an element.

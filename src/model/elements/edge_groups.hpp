@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "kernels/elements/element_blocks.hpp"
+#include "mesh/mesh.hpp"
 
 namespace railwave {
 
 /// Whether a model's elements are put in rows: processors gain by them in double precision.
 inline bool wants_rows(bool in_single) { return !on_device && !in_single; }
-
-using CornerNodes = std::array<int, 8>;
 
 inline constexpr int no_element = -1, element_sides = 6;
 /// Sides of an element as turned: xi, eta and zeta from below and above.

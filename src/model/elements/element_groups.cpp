@@ -129,7 +129,7 @@ std::vector<int> local_nodes(const Assembly& assembly, const BlockOrder& order, 
   }
   if (on_device) {
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    std::vector<std::array<int, 8>> elements(assembly.elements.begin() + first, assembly.elements.begin() + end);
+    std::vector<CornerNodes> elements(assembly.elements.begin() + first, assembly.elements.begin() + end);
     for (auto& corners : elements)
       for (int& n : corners) n = static_cast<int>(std::lower_bound(all.begin(), all.end(), n) - all.begin());
     order_for_warps(elements, banks, nodes);

@@ -148,7 +148,7 @@ void build_element_histories(const AssembledScene& assembled, ElementModel& elem
     for (double share : volume_shares(assembled.assembly, set.elements)) weight.push_back(share);
     first.push_back(static_cast<int>(item.size()));
   }
-  std::vector<std::array<int, 8>> corner;
+  std::vector<CornerNodes> corner;
   for (int e : listed) corner.push_back(assembled.assembly.elements[e]);
   histories.elements = listed;
   histories.first_of_set = first;

@@ -94,7 +94,7 @@ class BlockFiller {
   }
 
  private:
-  const std::array<int, 8>& corners(int p, int slot) const {
+  const CornerNodes& corners(int p, int slot) const {
     return assembled_.assembly.elements[group_.first_element[p] + std::min(slot, group_.element_count[p] - 1)];
   }
   HexahedronCorners places(int p, int slot) const { return corners_of(assembled_.assembly.nodes, corners(p, slot)); }
@@ -154,7 +154,7 @@ class BlockFiller {
     const auto corner = to_host(blocks.corner);
     std::vector<EdgeGroups> found(blocks.count);
     each_block([&](int p) {
-      std::vector<std::array<int, 8>> elements(group_.element_count[p]);
+      std::vector<CornerNodes> elements(group_.element_count[p]);
       for (int slot = 0; slot < group_.element_count[p]; ++slot)
         for (int N = 0; N < 8; ++N) elements[slot][N] = corner(corner_place(p, slot, N));
       found[p] = edge_groups(elements);

@@ -26,8 +26,8 @@ inline NumberRange element_range(const std::vector<int>& elements, int begin, in
   return range;
 }
 
-inline NumberRange node_range(const std::vector<std::array<int, 8>>& corners, const std::vector<int>& elements,
-                              int begin, int end) {
+inline NumberRange node_range(const std::vector<CornerNodes>& corners, const std::vector<int>& elements, int begin,
+                              int end) {
   NumberRange range;
   for (int k = begin; k < end; ++k)
     for (int n : corners[elements[k]]) range.include(n);

@@ -11,7 +11,7 @@ namespace {
 
 using Sides = std::array<int, element_sides>;
 
-/// CornerNodes of an element's sides, and the corner behind each: which is the neighbour's corner there, where that is
+/// Corners of an element's sides, and the corner behind each: which is the neighbour's corner there, where that is
 /// turned alike. The first and the third of a side lie across from each other.
 constexpr int side_corner[element_sides][4] = {{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4},
                                                {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -22,8 +22,8 @@ constexpr int side_behind[element_sides][4] = {{1, 2, 6, 5}, {0, 3, 7, 4}, {3, 2
 constexpr int turns = 24;
 
 struct Turns {
-  std::array<CornerNodes, turns> corner;  ///< of each turn: the elements' own corners, by corner as turned
-  int side[turns][element_sides];         ///< of each turn: the element's own sides, by side as turned
+  int corner[turns][8];            ///< of each turn: the elements' own corners, by corner as turned
+  int side[turns][element_sides];  ///< of each turn: the element's own sides, by side as turned
   /// By side as turned: the turn by which own corners are the first two of side_behind.
   std::uint8_t by_corners[element_sides][8][8];
 
@@ -47,7 +47,7 @@ struct Turns {
     std::fill_n(&by_corners[0][0][0], sizeof(by_corners), std::uint8_t{0});
     for (int turn = 0; turn < turns; ++turn)
       for (int s = 0; s < element_sides; ++s) {
-        const CornerNodes& own = corner[turn];
+        const int(&own)[8] = corner[turn];
         by_corners[s][own[side_behind[s][0]]][own[side_behind[s][1]]] = static_cast<std::uint8_t>(turn);
         for (int k = 0; k < element_sides; ++k) {
           const auto has = [&](int N) {
@@ -133,7 +133,7 @@ int turn_like(const CornerNodes& corners, const CornerNodes& neighbour, int side
 /// @param corners of one element as turned
 /// @param other corners of the one at its side, and how it is turned
 bool turned_alike(const CornerNodes& corners, int side, const CornerNodes& other, int turn) {
-  const CornerNodes& own = table().corner[turn];
+  const int(&own)[8] = table().corner[turn];
   for (int k = 0; k < 4; ++k)
     if (corners[side_corner[side][k]] != other[own[side_behind[side][k]]]) return false;
   return true;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "model/model.hpp"
@@ -20,8 +19,8 @@ void forget_mesh_of_blocks(Model& model);
 
 /// The mesh of a rank's blocks.
 struct MeshPiece {
-  std::vector<std::array<int, 8>> elements;  ///< block after block
-  std::vector<Vec3> nodes;                   ///< m, of the rank's nodes in order
+  std::vector<CornerNodes> elements;  ///< block after block
+  std::vector<Vec3> nodes;            ///< m, of the rank's nodes in order
 };
 
 /// A piece of the right size.

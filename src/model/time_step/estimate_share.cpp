@@ -1,7 +1,8 @@
 #include "model/time_step/estimate_share.hpp"
 
 #include <algorithm>
-#include <unordered_map>
+#include <iterator>
+#include <utility>
 
 #include "kernels/support/block_sum.hpp"
 #include "model/host_copy.hpp"
@@ -56,6 +57,35 @@ double sum_of_blocks(const std::vector<double>& blocks) {
 
 }  // namespace
 
+ElementsAround elements_around(const Assembly& whole, int begin, int end) {
+  ElementsAround around;
+  auto& [elements, parts, others] = around;
+  const auto in_range = [&](int n) { return n >= begin && n < end; };
+  const auto is_around = [&](const CornerNodes& corners) {
+    return std::any_of(corners.begin(), corners.end(), in_range);
+  };
+  elements.reserve(std::count_if(whole.elements.begin(), whole.elements.end(), is_around));
+  for (const Assembly::PartRange& part : whole.parts) {
+    Assembly::PartRange& range = parts.emplace_back(part);
+    range.first_element = static_cast<int>(elements.size());
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
+      const CornerNodes& corners = whole.elements[e];
+      if (!is_around(corners)) continue;
+      elements.push_back(corners);
+      std::copy_if(corners.begin(), corners.end(), std::back_inserter(others), [&](int n) { return !in_range(n); });
+    }
+    range.element_count = static_cast<int>(elements.size()) - range.first_element;
+  }
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  for (CornerNodes& corners : elements)
+    for (int& n : corners)
+      n = in_range(n)
+              ? n - begin
+              : end - begin + static_cast<int>(std::lower_bound(others.begin(), others.end(), n) - others.begin());
+  return around;
+}
+
 bool EstimateShare::possible(const scene::Scene& scene) { return !on_device && scene.ties.empty(); }
 
 double EstimateShare::part_of(int rank, int ranks) {
@@ -66,43 +96,39 @@ double EstimateShare::part_of(int rank, int ranks) {
 EstimateShare::EstimateShare(const AssembledScene& assembled, const NodalState& nodal, Transport& transport)
     : transport_(transport), ranges_(ranges_of(static_cast<int>(assembled.assembly.nodes.size()), transport.ranks())) {
   assembled_.scene = assembled.scene;
-  const int own_rank = transport.rank();
-  std::vector<std::vector<int>> sent(transport.ranks()), received(transport.ranks());
-  std::vector<int> others;
-  for (const auto& corners : assembled.assembly.elements) {
-    const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
-    if (*most < ranges_[own_rank] || *least >= ranges_[own_rank + 1]) continue;
-    if (*least >= ranges_[own_rank] && *most < ranges_[own_rank + 1]) continue;
-    std::vector<int> ranks;
-    for (int n : corners) ranks.push_back(rank_of(ranges_, n));
-    if (std::find(ranks.begin(), ranks.end(), own_rank) == ranks.end()) continue;
-    for (int N = 0; N < 8; ++N) {
-      if (ranks[N] != own_rank) {
-        others.push_back(corners[N]);
-        received[ranks[N]].push_back(corners[N]);
-        continue;
-      }
-      for (int other : ranks)
-        if (other != own_rank) sent[other].push_back(corners[N] - ranges_[own_rank]);
-    }
-  }
-  sort_and_join(others);
-  int first = own_count();
-  for (int r = 0; r < transport.ranks(); ++r) {
-    sort_and_join(sent[r]);
-    sort_and_join(received[r]);
-    if (sent[r].empty() && received[r].empty()) continue;
-    neighbours_.push_back({r, sent[r], first, static_cast<int>(received[r].size())});
-    first += static_cast<int>(received[r].size());
-  }
-  take_nodes(assembled, nodal, others);
-  take_elements(assembled, others);
+  ElementsAround around = elements_around(assembled.assembly, first_node(), first_node() + own_count());
+  find_neighbours(around);
+  take_nodes(assembled, nodal, around.others);
+  assembled_.assembly.elements = std::move(around.elements);
+  assembled_.assembly.parts = std::move(around.parts);
   std::size_t rows = 0;
   for (const Neighbour& one : neighbours_) rows += one.sent.size();
   packed_.resize(3 * rows);
   const int all = ranges_.back(), own = own_count();
-  const int blocks = ((own_rank == 0 ? all : own) + sum_block - 1) / sum_block;
+  const int blocks = ((transport.rank() == 0 ? all : own) + sum_block - 1) / sum_block;
   sums_.resize(blocks);
+}
+
+void EstimateShare::find_neighbours(const ElementsAround& around) {
+  const int own = own_count();
+  std::vector<std::vector<int>> sent(transport_.ranks());
+  for (const CornerNodes& corners : around.elements)
+    for (int other : corners) {
+      if (other < own) continue;
+      std::vector<int>& rows = sent[rank_of(ranges_, around.others[other - own])];
+      std::copy_if(corners.begin(), corners.end(), std::back_inserter(rows), [&](int n) { return n < own; });
+    }
+  auto first = around.others.begin();
+  for (int r = 0; r < transport_.ranks(); ++r) {
+    if (r == transport_.rank()) continue;
+    sort_and_join(sent[r]);
+    // Ranks' ranges ascend like the nodes.
+    const auto last = std::lower_bound(first, around.others.end(), ranges_[r + 1]);
+    if (first != last)
+      neighbours_.push_back(
+          {r, sent[r], own + static_cast<int>(first - around.others.begin()), static_cast<int>(last - first)});
+    first = last;
+  }
 }
 
 void EstimateShare::take_nodes(const AssembledScene& whole, const NodalState& nodal, const std::vector<int>& others) {
@@ -124,30 +150,9 @@ void EstimateShare::take_nodes(const AssembledScene& whole, const NodalState& no
   nodal_.nodes.count = static_cast<int>(numbers.size());
   nodal_.nodes.mass = to_device("mass", mass);
   nodal_.nodes.constraint = to_device("constraint", constraint);
-  nodal_.nodes.position = to_device("position", assembled_.assembly.nodes);
+  nodal_.nodes.reference = to_device("reference", assembled_.assembly.nodes);
+  nodal_.nodes.position = nodal_.nodes.reference;
   nodal_.constraints = nodal.constraints;
-}
-
-void EstimateShare::take_elements(const AssembledScene& whole, const std::vector<int>& others) {
-  const int begin = first_node(), end = begin + own_count();
-  std::unordered_map<int, int> place;  // of nodes of other ranks
-  for (std::size_t k = 0; k < others.size(); ++k) place[others[k]] = own_count() + static_cast<int>(k);
-  const auto is_own = [&](int n) { return n >= begin && n < end; };
-  const auto has_own = [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), is_own); };
-  const auto& all = whole.assembly.elements;
-  assembled_.assembly.elements.reserve(std::count_if(all.begin(), all.end(), has_own));
-  for (const auto& part : whole.assembly.parts) {
-    Assembly::PartRange range = part;
-    range.first_element = static_cast<int>(assembled_.assembly.elements.size());
-    for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
-      auto corners = all[e];
-      if (!has_own(corners)) continue;
-      for (int& n : corners) n = is_own(n) ? n - begin : place[n];
-      assembled_.assembly.elements.push_back(corners);
-    }
-    range.element_count = static_cast<int>(assembled_.assembly.elements.size()) - range.first_element;
-    assembled_.assembly.parts.push_back(range);
-  }
 }
 
 void EstimateShare::forget_mesh() {

@@ -10,6 +10,16 @@
 
 namespace railwave {
 
+/// All elements around a range of nodes, in order, with numbers of their own for their nodes: the range's come first,
+/// then `others`. Whoever has them adds forces on the range's nodes in the order in which the whole mesh does.
+struct ElementsAround {
+  std::vector<CornerNodes> elements;
+  std::vector<Assembly::PartRange> parts;  ///< those of the whole mesh, with their ranges of `elements`
+  std::vector<int> others;                 ///< numbers in the whole mesh of the elements' other nodes, ascending
+};
+/// @param begin, end of the nodes
+ElementsAround elements_around(const Assembly& whole, int begin, int end);
+
 /// A rank's share of a search for the highest frequency of a scene's elements (global_step.hpp). Each rank has a range
 /// of nodes with all elements around them, so that forces on its nodes are added in the order of one process. It brings
 /// the displacements of the other nodes of these elements from the ranks that have them. Inner products are added in
@@ -28,8 +38,8 @@ class EstimateShare {
   /// Without masses, which nodal() has.
   const AssembledScene& assembled() const { return assembled_; }
   const NodalState& nodal() const { return nodal_; }
-  /// Number in the whole scene of the first of the rank's nodes.
-  int first_node() const { return ranges_[transport_.rank()]; }
+  /// One more than the number of the scene's last node, counted from the first of the rank's nodes.
+  int end_of_scene() const { return ranges_.back() - first_node(); }
 
   /// Springs of contacts on the rank's nodes.
   ContactOnNodes own_part(const ContactOnNodes& whole) const;
@@ -51,8 +61,10 @@ class EstimateShare {
     int first_received, received_count;
   };
 
+  /// Number in the whole scene of the first of the rank's nodes.
+  int first_node() const { return ranges_[transport_.rank()]; }
   int own_count() const { return ranges_[transport_.rank() + 1] - first_node(); }
-  void take_elements(const AssembledScene& whole, const std::vector<int>& others);
+  void find_neighbours(const ElementsAround& around);
   void take_nodes(const AssembledScene& whole, const NodalState& nodal, const std::vector<int>& others);
 
   Transport& transport_;

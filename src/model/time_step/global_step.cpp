@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdint>
 
 #include "kernels/support/reductions.hpp"
 #include "kernels/ties/tie.hpp"
@@ -19,21 +18,42 @@ constexpr int iterations_between_checks = 10;
 /// Iterations before which a low Ritz value is not believed.
 constexpr int least_iterations = 30;
 
-/// Between -1 and 1, without order in the numbers: the start has a part in every mode, wherever that is.
-KOKKOS_INLINE_FUNCTION double scattered(std::uint64_t number) {
-  number = (number + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  number = (number ^ (number >> 31)) * 0x94d049bb133111ebu;
-  number ^= number >> 29;
-  return static_cast<double>(number >> 11) / 4503599627370496.0 - 1.0;
+/// Between -1 and 1, without order from place to place, yet continuous: rounding in a place hardly counts. No plane or
+/// axis of a scene is one of its planes or axes.
+/// @param x m
+/// @param direction 0, 1, 2: each has values of its own
+/// @param shift so has each shift, rad
+KOKKOS_INLINE_FUNCTION double scattered(const Vector3& x, int direction, double shift) {
+  // Waves of about 1 mm, so many times over again that nodes 1 um apart still differ.
+  const double wave = 5077.1 * x[0] + 6411.7 * x[1] + 7933.3 * x[2];
+  return std::sin(300 * std::sin(wave + shift + 0.7 + 1.1 * direction));
 }
 
-/// M^(1/2) times scattered numbers, so that ToWeighted leaves the start vector of unit mass.
+/// M^(1/2) times scattered numbers, so that ToWeighted leaves the start vector of unit mass. They are by places, so
+/// that the step does not depend on how a mesh is numbered. The place is a little inside the node's elements: nodes of
+/// two bodies that lie on one another differ.
 struct StartVector {
   NodeVector f;
   Array<const double*> mass;
-  std::uint64_t first;  ///< number of the first node in the scene
+  Array<const double* [3]> reference;
+  Array<const int*> first_corner, corner;  ///< see GatherTangent
+  Array<const int* [8]> corners;
+  int end;  ///< one more than the number of the scene's last node, as `n` counts
+
+  KOKKOS_INLINE_FUNCTION Vector3 middle_of_elements(int n) const {
+    Vector3 sum{{0, 0, 0}};
+    for (int k = first_corner(n); k < first_corner(n + 1); ++k)
+      for (int N = 0; N < 8; ++N) sum = sum + row(reference, corners(corner(k) / 8, N));
+    return (0.125 / (first_corner(n + 1) - first_corner(n))) * sum;
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(3 * (first + n) + i);
+    const bool of_elements = first_corner(n + 1) > first_corner(n);
+    Vector3 x = row(reference, n);
+    if (of_elements) x = 0.7 * x + 0.3 * middle_of_elements(n);
+    // Point masses, of which many may lie at one place, and nodes inside beams are the last, in the case's order.
+    const double shift = of_elements ? 0 : end - n;
+    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(x, i, shift);
   }
 };
 
@@ -148,8 +168,10 @@ void GlobalEstimate::apply(double inverse_time) {
 double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, const Bounds& bounds,
                                           GlobalStep& result) {
   const int nodes = static_cast<int>(now_.extent(0));
-  const std::uint64_t first = share_ != nullptr ? share_->first_node() : 0;
-  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, nodal_.nodes.mass, first});
+  Kokkos::parallel_for(
+      "tangent_start", Range(0, nodes),
+      StartVector{now_, nodal_.nodes.mass, nodal_.nodes.reference, tangent_.first_corner(), tangent_.corner(),
+                  tangent_.corners(), share_ != nullptr ? share_->end_of_scene() : nodes});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{now_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
   const double size = std::sqrt(inner(now_, now_));

@@ -39,8 +39,8 @@ struct GlobalStep {
 /// Estimates the stable step from the highest frequency of everything together: elements, hourglass control, springs
 /// and dashpots of connectors, contact springs of the nodes that touch or soon may, constraints. The central difference
 /// with velocities half a step behind is stable while dt^2/4 K + dt/2 C <= M, so dt = 2/omega with omega^2 the largest
-/// eigenvalue of M^-1 (K + 2/dt C). Lanczos' method, from a vector made of the nodes' numbers, finds it from below; the
-/// residual's bound, at most `tolerance` of omega^2, is added, so that the step errs to the short side.
+/// eigenvalue of M^-1 (K + 2/dt C). Lanczos' method, from a vector made of the nodes' undeformed places, finds it from
+/// below; the residual's bound, at most `tolerance` of omega^2, is added, so that the step errs to the short side.
 class GlobalEstimate {
  public:
   static constexpr double tolerance = 0.01;

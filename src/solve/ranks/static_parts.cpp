@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <iterator>
+#include <utility>
 
+#include "model/time_step/estimate_share.hpp"
 #include "model/time_step/tangent_operator.hpp"
 #include "solve/ranks/rank_team.hpp"
 
@@ -11,11 +12,6 @@ namespace railwave {
 namespace {
 
 enum class Order : int { place, apply, end };
-
-/// Of a rank's nodes and elements.
-struct Size {
-  int own = 0, nodes = 0, elements = 0, parts = 0;
-};
 
 /// First nodes of the ranks' ranges, and the number of nodes at the end: alike many corners of elements for each.
 std::vector<int> ranges_of(const Assembly& assembly, int ranks) {
@@ -37,7 +33,10 @@ std::vector<int> ranges_of(const Assembly& assembly, int ranks) {
 
 /// A rank's elements, with numbers of its own for their nodes.
 struct StaticParts::Part {
-  Size size;
+  /// Numbers of nodes, elements and parts of the scene.
+  struct Size {
+    int own = 0, nodes = 0, elements = 0, parts = 0;
+  } size;
   Assembly assembly;
   std::vector<ElementStiffness> stiffness;  ///< by part of the scene
   std::unique_ptr<TangentOperator> tangent;
@@ -60,34 +59,17 @@ struct StaticParts::Part {
 
 namespace {
 
-/// Elements with nodes of [begin, end), in order. @param others their other nodes, ascending
+/// Of nodes of [begin, end). @param others their elements' other nodes, ascending
 std::unique_ptr<StaticParts::Part> part_of(const AssembledScene& assembled, int begin, int end,
                                            std::vector<int>& others) {
-  const Assembly& whole = assembled.assembly;
+  ElementsAround around = elements_around(assembled.assembly, begin, end);
+  others = std::move(around.others);
   auto part = std::make_unique<StaticParts::Part>();
-  const auto is_own = [&](int n) { return n >= begin && n < end; };
-  for (std::size_t p = 0; p < whole.parts.size(); ++p) {
-    const Assembly::PartRange& of_whole = whole.parts[p];
-    Assembly::PartRange range;
-    range.first_element = static_cast<int>(part->assembly.elements.size());
-    for (int e = of_whole.first_element; e < of_whole.first_element + of_whole.element_count; ++e) {
-      const auto& corners = whole.elements[e];
-      if (std::none_of(corners.begin(), corners.end(), is_own)) continue;
-      part->assembly.elements.push_back(corners);
-      std::copy_if(corners.begin(), corners.end(), std::back_inserter(others), [&](int n) { return !is_own(n); });
-    }
-    range.element_count = static_cast<int>(part->assembly.elements.size()) - range.first_element;
-    part->assembly.parts.push_back(range);
+  part->assembly.elements = std::move(around.elements);
+  part->assembly.parts = std::move(around.parts);
+  for (std::size_t p = 0; p < assembled.scene.parts.size(); ++p)
     part->stiffness.push_back(
-        settling_stiffness(assembled.scene.parts[p], assembled.scene.materials[of_whole.material]));
-  }
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
-  for (auto& corners : part->assembly.elements)
-    for (int& n : corners)
-      n = is_own(n)
-              ? n - begin
-              : end - begin + static_cast<int>(std::lower_bound(others.begin(), others.end(), n) - others.begin());
+        settling_stiffness(assembled.scene.parts[p], assembled.scene.materials[assembled.assembly.parts[p].material]));
   part->size = {end - begin, end - begin + static_cast<int>(others.size()),
                 static_cast<int>(part->assembly.elements.size()), static_cast<int>(part->stiffness.size())};
   return part;

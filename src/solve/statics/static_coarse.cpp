@@ -57,7 +57,7 @@ void StaticCoarse::divide_nodes(const Assembly& assembly) {
     if (a < 0) a = count_++;
 }
 
-void StaticCoarse::divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle,
+void StaticCoarse::divide(const std::vector<CornerNodes>& elements, const std::vector<Vec3>& middle,
                           std::vector<int>& order, int begin, int end, int largest) {
   if (end - begin <= largest) {
     bool any = false;

@@ -30,7 +30,7 @@ class StaticCoarse {
   using Blocks = std::map<std::pair<int, int>, Block>;  ///< row aggregate >= column aggregate
 
   void divide_nodes(const Assembly& assembly);
-  void divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
+  void divide(const std::vector<CornerNodes>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
               int begin, int end, int largest);
   void lay_modes();
   void lay_slaves();

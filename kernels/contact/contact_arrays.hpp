@@ -89,13 +89,21 @@ struct alignas(16) WindowEntry {
 /// the next check.
 struct ContactWindow {
   int count = 0;
+  int room = 0;                 ///< nodes that launches are made for at least
   Array<WindowEntry*> entries;  ///< room for all slave nodes, as `near`; the window's come first
   Array<int*> near;             ///< places in `entries`, in any order: what the nodes do does not depend on each other
   Array<int*> near_count;       ///< one
 
   /// What launches over the near nodes, whose number the device knows, are made for: no less than the window has, and
   /// seldom another, so that they can be recorded.
-  KOKKOS_INLINE_FUNCTION int bound() const { return (count + grain - 1) / grain * grain; }
+  KOKKOS_INLINE_FUNCTION int bound() const { return ((count > room ? count : room) + grain - 1) / grain * grain; }
+
+  /// The number of nodes from now on. Where it is more than there is room for, room for an eighth more is made, and
+  /// kept: launches of another size are recorded anew, which takes as long as a hundred steps.
+  void resize(int nodes) {
+    count = nodes;
+    if (nodes > room) room = nodes + nodes / 8;
+  }
   static constexpr int grain = 256;
 };
 

@@ -103,6 +103,16 @@ struct NodeCheck {
   }
 };
 
+/// What the account adds of a group's elements, from what each block has: elastic energy, hourglass control, damping,
+/// work of flow.
+struct BlockTotals {
+  static constexpr int values = 4;
+  Array<const double* [values]> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
+    for (int k = 0; k < values; ++k) sum[k] += of(p, k);
+  }
+};
+
 /// How deep a slave node is in its segment, over the segment's size; how often it was seen to open and to close again.
 struct ContactCheck {
   static constexpr int values = 2;

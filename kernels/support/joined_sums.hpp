@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/support/reduction_space.hpp"
 #include "kernels/support/team_reduction.hpp"
 #include "kernels/support/type_list.hpp"
 

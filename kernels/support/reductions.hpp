@@ -7,7 +7,7 @@
 #include "kernels/support/block_largest.hpp"
 #include "kernels/support/block_sum.hpp"
 #include "kernels/support/milestone.hpp"
-#include "kernels/support/reduction_space.hpp"
+#include "kernels/support/team_reduction.hpp"
 
 namespace railwave {
 

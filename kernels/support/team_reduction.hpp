@@ -1,10 +1,22 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include "kernels/support/team.hpp"
 
 namespace railwave {
+
+/// Where reductions leave what their blocks have found; grows to what is asked of it, so that only the first ones
+/// allocate.
+struct ReductionSpace {
+  Array<double*> blocks;  ///< of the reduction at work
+  Array<double*> left;    ///< of all that are queued
+  PinnedArray<double*> fetched;
+  Array<unsigned char*> terms;  ///< of sums that have a launch together
+  PinnedArray<unsigned char*> terms_given;
+  std::size_t terms_there = 0;  ///< bytes of these that the device has
+};
 
 /// Threads that reduce items together. A team of a device waits for each item once, where a thread with several waits
 /// for one after the other.

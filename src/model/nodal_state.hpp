@@ -5,7 +5,7 @@
 
 #include "kernels/contact/multiplier_arrays.hpp"
 #include "kernels/nodes/shared_nodes.hpp"
-#include "kernels/support/reduction_space.hpp"
+#include "kernels/support/team_reduction.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/element_model.hpp"
 #include "model/elements/relative_coordinates.hpp"

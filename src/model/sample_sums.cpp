@@ -7,7 +7,7 @@
 #include "kernels/contact/contact_sums.hpp"
 #include "kernels/contact/laws/linear_penalty.hpp"
 #include "kernels/loads/load_sums.hpp"
-#include "model/elements/block_totals.hpp"
+#include "kernels/monitor/monitor_terms.hpp"
 
 namespace railwave {
 

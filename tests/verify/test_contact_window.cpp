@@ -127,3 +127,20 @@ TEST_CASE("a check of the window that comes too late for a body set in motion at
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("steps late") != std::string::npos);
 }
+
+TEST_CASE("launches over a contact's window keep their size while its nodes come and go") {
+  ContactWindow window;
+  window.resize(1000);
+  const int bound = window.bound();
+  CHECK(bound >= 1000);
+  for (int nodes : {900, 0, 1100, 1000}) {
+    window.resize(nodes);
+    CHECK(window.count == nodes);
+    CHECK(window.bound() == bound);
+  }
+  window.resize(5000);
+  CHECK(window.bound() >= 5000);
+  ContactWindow taken_up;  // a state gives the number alone
+  taken_up.count = 700;
+  CHECK(taken_up.bound() >= 700);
+}

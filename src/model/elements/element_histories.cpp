@@ -8,7 +8,7 @@
 #include "model/elements/history_sets.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
-#include "model/sum_parts.hpp"
+#include "model/sample_sums.hpp"
 
 namespace railwave {
 namespace {

@@ -9,7 +9,7 @@
 #include "kernels/elements/element_blocks.hpp"
 #include "kernels/materials/material.hpp"
 #include "kernels/nodes/nodes.hpp"
-#include "kernels/support/reduction_space.hpp"
+#include "kernels/support/team_reduction.hpp"
 #include "model/elements/block_order.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "model/parted_lists.hpp"

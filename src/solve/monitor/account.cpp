@@ -6,7 +6,7 @@
 #include "kernels/loads/load_sums.hpp"
 #include "kernels/monitor/monitor_terms.hpp"
 #include "model/elements/element_histories.hpp"
-#include "model/sum_parts.hpp"
+#include "model/sample_sums.hpp"
 #include "solve/monitor/energies.hpp"
 #include "solve/tasks/beam_forces.hpp"
 

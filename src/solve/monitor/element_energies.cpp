@@ -1,5 +1,5 @@
+#include "kernels/monitor/monitor_terms.hpp"
 #include "model/elements/block_launch.hpp"
-#include "model/elements/block_totals.hpp"
 #include "model/elements/materials.hpp"
 #include "solve/monitor/energies.hpp"
 
@@ -111,6 +111,7 @@ void sum_block_energies(const ElementModel& model, const NodeArrays& nodes) {
 
 void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, SampleSums& sums) {
   for (const ElementGroup& group : model.elements) {
+    static_assert(BlockTotals::values == energies_of_block);
     sums.sum(BlockTotals{group.block_sums}, group.blocks.count, [&energy](const double* sum) {
       energy.internal += sum[0];
       energy.hourglass += sum[1];

@@ -186,7 +186,7 @@ void fill_window(ContactWindow& window, int slave_count, const std::vector<Windo
   std::copy(entries.begin(), entries.end(), host.data());
   std::fill(host.data() + entries.size(), host.data() + slave_count, WindowEntry{});
   Kokkos::deep_copy(window.entries, host);
-  window.count = static_cast<int>(entries.size());
+  window.resize(static_cast<int>(entries.size()));
 }
 
 void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {

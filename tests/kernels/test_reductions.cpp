@@ -93,7 +93,7 @@ TEST_CASE("sums by terms of different types in one launch are those of each alon
   std::vector<std::vector<double>> lists;
   for (int count : counts) {
     lists.emplace_back();
-    for (int i = 0; i < count; ++i) lists.back().push_back(std::sin(2.0 + i * count));
+    for (int i = 0; i < count; ++i) lists.back().push_back(std::sin(2.0 + 1.0 * i * count));
     numbers.push_back(to_device("numbers", lists.back()));
   }
   ReductionSpace space;

@@ -145,15 +145,21 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
     for (int i = 0; i < pair.window.count; ++i) near[entries[i].slave] = entries[i].near != 0;
   }
 
+  std::vector<int> nearest_master(slaves.size(), -1);
+  on_host_threads(static_cast<int>(slaves.size()), [&](int s) {
+    if (pair.on_both[s] != 0) return;
+    const Vec3& v = slave_velocities[s];
+    const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(dot(v, v)) + fastest_master);
+    nearest_master[s] = nearest.find(slaves[s], reach);
+  });
+
   std::vector<ContactSpring> springs;
   const auto status = to_host(pair.arrays.status), tracked = to_host(pair.arrays.tracked);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
-    if (pair.on_both[s] != 0) continue;
-    const Vec3& v = slave_velocities[s];
-    const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(dot(v, v)) + fastest_master);
-    const int m = nearest.find(slaves[s], reach);
+    const int m = nearest_master[s];
     if (m < 0) continue;
-    const Vec3 away = difference(slaves[s], masters[m]), relative = difference(v, master_velocities[m]);
+    const Vec3 away = difference(slaves[s], masters[m]),
+               relative = difference(slave_velocities[s], master_velocities[m]);
     const double gap = dot(away, around.normal[m]);
     const double aside = std::sqrt(std::fmax(0.0, dot(away, away) - gap * gap));
     const double closing = closing_factor * horizon * std::sqrt(dot(relative, relative));

@@ -73,7 +73,8 @@ void write_mode_file(const AssembledScene& assembled, const ModeList& list, cons
   for (std::size_t k = 0; k < list.modes.size(); ++k) {
     XdmfGrids grids;
     for (const OutputSet& set : sets) grids.sets.emplace_back(&set, k);
-    xdmf.add(static_cast<double>(k + 1), k, grids);
+    if (!xdmf.add(static_cast<double>(k + 1), k, grids))
+      throw std::runtime_error(companion + " was removed while it was written");
   }
 }
 

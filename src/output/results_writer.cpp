@@ -192,10 +192,10 @@ void ResultsWriter::create_sections() {
   set_outputs_.assign(description_.sets.size(), 0);
   contact_outputs_.assign(description_.contacts.size(), 0);
   has_sections_ = true;
-  report_earlier_times();
+  if (!report_earlier_times()) describe_anew();
 }
 
-void ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
+bool ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
   XdmfGrids grids;
   for (std::size_t s = 0; s < choice.sets.size(); ++s)
     if (choice.sets[s]) grids.sets.emplace_back(&description_.sets[s], set_outputs_[s]++);
@@ -204,10 +204,10 @@ void ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
     for (const XdmfContactSide& side : contact_sides_[c]) grids.sides.emplace_back(&side, contact_outputs_[c]);
     ++contact_outputs_[c];
   }
-  if (!grids.sets.empty() || !grids.sides.empty()) xdmf_.add(time, outputs_++, grids);
+  return (grids.sets.empty() && grids.sides.empty()) || xdmf_.add(time, outputs_++, grids);
 }
 
-void ResultsWriter::report_earlier_times() {
+bool ResultsWriter::report_earlier_times() {
   const hdf5::Group root = file_.root();
   const OutputChoice none = OutputChoice::none(description_.sets.size(), description_.contacts.size());
   std::map<long, Pending> outputs;  // by step
@@ -224,7 +224,21 @@ void ResultsWriter::report_earlier_times() {
   for (std::size_t c = 0; c < description_.contacts.size(); ++c)
     add(root.group("contact").group(description_.contacts[c].name),
         [&](OutputChoice& choice) { choice.contacts[c] = true; });
-  for (const auto& [step, output] : outputs) add_to_xdmf(output.time, output.choice);
+  return std::all_of(outputs.begin(), outputs.end(),
+                     [this](const auto& one) { return add_to_xdmf(one.second.time, one.second.choice); });
+}
+
+/// All outputs that the file has.
+void ResultsWriter::describe_anew() {
+  constexpr int most_tries = 3;  // whoever removed it does so again and again
+  for (int tries = 0; tries < most_tries; ++tries) {
+    xdmf_.begin_anew();
+    outputs_ = 0;
+    set_outputs_.assign(set_outputs_.size(), 0);
+    contact_outputs_.assign(contact_outputs_.size(), 0);
+    if (report_earlier_times()) return;
+  }
+  throw std::runtime_error(fmt::format("{} was removed each time it was written", xdmf_path(path_)));
 }
 
 void ResultsWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice) {
@@ -263,15 +277,10 @@ void ResultsWriter::flush() {
                kinds::results_xdmf());  // an older run's, which would name arrays that are no longer there
     in_place_ = true;
   }
-  if (!pending_.empty() && !xdmf_.is_there()) {
-    xdmf_.begin_anew();
-    outputs_ = 0;
-    set_outputs_.assign(set_outputs_.size(), 0);
-    contact_outputs_.assign(contact_outputs_.size(), 0);
-    report_earlier_times();  // these among them
-  } else {
-    for (const Pending& output : pending_) add_to_xdmf(output.time, output.choice);
-  }
+  // Somebody may remove it between one look and the next.
+  bool there = pending_.empty() || xdmf_.is_there();
+  for (std::size_t k = 0; there && k < pending_.size(); ++k) there = add_to_xdmf(pending_[k].time, pending_[k].choice);
+  if (!there) describe_anew();
   pending_.clear();
   last_flush_ = std::chrono::steady_clock::now();
 }

@@ -95,8 +95,10 @@ class ResultsWriter {
   /// So many entries of a group; throws where there are fewer.
   void leave(const hdf5::Group& group, const std::string& name, hsize_t entries) const;
   void create_sections();
-  void report_earlier_times();
-  void add_to_xdmf(double time, const OutputChoice& choice);
+  /// @return false: somebody has removed the XDMF file
+  bool report_earlier_times();
+  bool add_to_xdmf(double time, const OutputChoice& choice);
+  void describe_anew();
 
   /// Writes the waiting history and brings everything to the disk. A kill leaves all of it or nothing.
   void flush();

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -153,7 +154,7 @@ XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<
 
 bool XdmfFile::is_there() const { return end_of_times_ == 0 || access(path_.c_str(), F_OK) == 0; }
 
-void XdmfFile::add(double time, std::size_t number, const XdmfGrids& at_this_time) {
+bool XdmfFile::add(double time, std::size_t number, const XdmfGrids& at_this_time) {
   TimeText text(results_file_name_, time, number, float_bytes_);
   for (const auto& [set, index] : at_this_time.sets)
     if (!set->elements.empty()) add_set(text, *set, index, fields_);
@@ -167,10 +168,11 @@ void XdmfFile::add(double time, std::size_t number, const XdmfGrids& at_this_tim
     struct stat facts;
     if (stat(path_.c_str(), &facts) == 0) device_ = facts.st_dev, inode_ = facts.st_ino;
     end_of_times_ = static_cast<long>(header.size() + grids.size());
-    return;
+    return true;
   }
   const std::string tail = grids + footer;
   disk::Descriptor file(open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.get() < 0 && errno == ENOENT) return false;
   struct stat facts;
   if (file.get() >= 0 && (fstat(file.get(), &facts) != 0 || facts.st_dev != device_ || facts.st_ino != inode_))
     throw std::runtime_error("another file has taken the name " + path_ + " while this run wrote it");
@@ -182,6 +184,7 @@ void XdmfFile::add(double time, std::size_t number, const XdmfGrids& at_this_tim
     throw std::runtime_error("cannot extend " + path_ + ": " + reason + (mend.empty() ? "" : "; ") + mend);
   }
   end_of_times_ += static_cast<long>(grids.size());
+  return true;
 }
 
 }  // namespace railwave

@@ -38,7 +38,8 @@ class XdmfFile {
 
   /// Adds output time number `number`, counted from 0. The first call makes the file; the later ones extend it in
   /// place, and throw if another file has taken its name meanwhile.
-  void add(double time, std::size_t number, const XdmfGrids& grids);
+  /// @return false: somebody has removed the file, and nothing was written
+  [[nodiscard]] bool add(double time, std::size_t number, const XdmfGrids& grids);
 
   /// Whether nobody has removed it.
   bool is_there() const;

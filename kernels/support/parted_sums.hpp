@@ -11,18 +11,17 @@ struct PartedItems {
   Array<int*> first;  ///< of each part in `item`, one more than parts
 };
 
-/// A term of items that are listed.
-template <class Term>
-struct ListedTerm {
-  static constexpr int values = Term::values;
-  const Term& term;
-  const Array<int*>& item;
-  KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const { term(item(k), sum); }
-};
-
 /// Sums `term(item)` over the items of listed parts, each by a team. `Term` as of sum_by_team().
 template <class Term>
 struct PartSum {
+  /// The term of an item by its place in the list.
+  struct Listed {
+    static constexpr int values = Term::values;
+    const Term& term;
+    const Array<int*>& item;
+    KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const { term(item(k), sum); }
+  };
+
   Term term;
   PartedItems items;
   Array<const int*> listed;    ///< parts; empty: all
@@ -31,7 +30,7 @@ struct PartSum {
   template <class Member>
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int q = listed.extent(0) == 0 ? team.league_rank() : listed(team.league_rank());
-    sum_by_team(team, ListedTerm<Term>{term, items.item}, items.first(q), items.first(q + 1), result[q]);
+    sum_by_team(team, Listed{term, items.item}, items.first(q), items.first(q + 1), result[q]);
   }
 };
 

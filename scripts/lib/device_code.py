@@ -19,8 +19,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]', re.MULTILINE)
 LAUNCH = re.compile(r"\bparallel_(for|reduce|scan)\b")
 # A functor's begin, or its call operator for the device; with how far it is indented.
-FUNCTOR = re.compile(r"^(?P<indent> *)(?:(?:struct|class) (?P<name>\w+)(?:<[^;(){}]*>)?(?: final)?(?:\s*:[^;(){}]*)?\s*\{|"
-                     r"KOKKOS_\w*FUNCTION void operator\(\))", re.MULTILINE)
+FUNCTOR = re.compile(r"^(?P<indent> *)(?:(?:struct|class) (?P<name>\w+)(?:<[^;(){}]*>)?(?: final)?"
+                     r"(?:\s*:[^;(){}]*)?\s*\{|KOKKOS_\w*FUNCTION void operator\(\))", re.MULTILINE)
 # What has no kernel with HIP: values of recorded steps, which are recorded with CUDA only (src/solve/launch_graph.hpp);
 # rows that a host copies and a device does not; a list's term, which PartSum calls.
 WITHOUT_KERNEL = {"TakeStepValues", "CopyNonzeroRow", "Listed"}

@@ -22,8 +22,8 @@ LAUNCH = re.compile(r"\bparallel_(for|reduce|scan)\b")
 FUNCTOR = re.compile(r"^(?P<indent> *)(?:(?:struct|class) (?P<name>\w+)(?:<[^;(){}]*>)?(?: final)?"
                      r"(?:\s*:[^;(){}]*)?\s*\{|KOKKOS_\w*FUNCTION void operator\(\))", re.MULTILINE)
 # What has no kernel with HIP: values of recorded steps, which are recorded with CUDA only (src/solve/launch_graph.hpp);
-# rows that a host copies and a device does not; a list's term, which PartSum calls.
-WITHOUT_KERNEL = {"TakeStepValues", "CopyNonzeroRow", "Listed"}
+# rows that a host copies and a device does not.
+WITHOUT_KERNEL = {"TakeStepValues", "CopyNonzeroRow"}
 
 
 class Source:
@@ -83,8 +83,8 @@ def sources(build):
 
 def functors():
     """Names of all functors that have a call operator for the device, with the file that each is in; without those that
-    are members of another functor, which calls them."""
-    found, texts = {}, {}
+    are members of another functor or begin within it, which calls them."""
+    found, within, texts = {}, {}, {}
     for path in sorted([*(ROOT / "kernels").rglob("*.hpp"), *(ROOT / "src").rglob("*.[ch]pp")]):
         texts[path] = path.read_text(encoding="utf-8")
         around = []  # functors that begin before, with their indents
@@ -95,9 +95,10 @@ def functors():
                 around.append((match["name"], indent))
             elif around:
                 found[around[-1][0]] = str(path.relative_to(ROOT))
+                within[around[-1][0]] = {name for name, _ in around[:-1]}
     kernels = "".join(text for path, text in texts.items() if path.is_relative_to(ROOT / "kernels"))
     return {name: place for name, place in found.items()
-            if not re.search(rf"^ +(?:const )?{name} \w+;$", kernels, re.MULTILINE)}
+            if not within[name] & found.keys() and not re.search(rf"^ +(?:const )?{name} \w+;$", kernels, re.MULTILINE)}
 
 
 def call(*command):

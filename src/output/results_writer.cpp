@@ -189,10 +189,8 @@ void ResultsWriter::create_sections() {
           output.has_side(slave) && !output.near_only())
         sides.push_back({contact.name, slave, surface.nodes.size(), surface.facets.size(), output.fields});
   }
-  set_outputs_.assign(description_.sets.size(), 0);
-  contact_outputs_.assign(description_.contacts.size(), 0);
   has_sections_ = true;
-  if (!report_earlier_times()) describe_anew();
+  describe_anew();
 }
 
 bool ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
@@ -234,8 +232,8 @@ void ResultsWriter::describe_anew() {
   for (int tries = 0; tries < most_tries; ++tries) {
     xdmf_.begin_anew();
     outputs_ = 0;
-    set_outputs_.assign(set_outputs_.size(), 0);
-    contact_outputs_.assign(contact_outputs_.size(), 0);
+    set_outputs_.assign(description_.sets.size(), 0);
+    contact_outputs_.assign(description_.contacts.size(), 0);
     if (report_earlier_times()) return;
   }
   throw std::runtime_error(fmt::format("{} was removed each time it was written", xdmf_path(path_)));

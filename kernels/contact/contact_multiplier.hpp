@@ -78,16 +78,16 @@ struct ContactMultiplier {
   double taken_back;  ///< share of gap and way of a node in contact that a step takes back: 1 - tau
   FallingFriction falling_friction;
   Array<double*> friction_state;  ///< of it, value by value, each by slave node; empty where friction is constant
-  int sweep = 0;                  ///< of Correct and Finish, from 1
 
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
   /// a hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
 
   /// @param i of the window's nodes: how many of them are near is known on the device only
+  /// @param sweep of Correct and Finish, from 1
   template <class Phase>
-  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i) const {
-    if (i < window.near_count(0)) run(phase, i);
+  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i, int sweep) const {
+    if (i < window.near_count(0)) run(phase, i, sweep);
   }
 
   /// What every multiplier has of its row's nodes, in registers: memory is asked for all at once, and not for one after
@@ -108,7 +108,7 @@ struct ContactMultiplier {
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const int i, int /*sweep*/) const {
     const WindowEntry near = window.entries(window.near(i));
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
@@ -271,12 +271,12 @@ struct ContactMultiplier {
     int slips;
   };
 
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const int i, int sweep) const {
     MultiplierRow& r = multipliers.rows(i);
     const RowNodes nodes = nodes_of(r);
     if (r.active == 0) return;
     const Vector3 before = r.change;
-    const Corrected now = corrected(r, nodes);
+    const Corrected now = corrected(r, nodes, sweep);
     r.free = now.free;
     r.compliance = now.compliance;
     r.force = now.force;
@@ -286,13 +286,13 @@ struct ContactMultiplier {
   }
 
   /// A sweep's new force of one multiplier.
-  KOKKOS_INLINE_FUNCTION Corrected corrected(const MultiplierRow& r, const RowNodes& nodes) const {
+  KOKKOS_INLINE_FUNCTION Corrected corrected(const MultiplierRow& r, const RowNodes& nodes, int sweep) const {
     Corrected now;
     Vector3 moves = r.free;
     now.compliance = sweep == 1 ? 0 : r.compliance;
     const auto add = [&](int at, double weight) {
       if (sweep > 1) {
-        moves = moves + weight * movement(at);
+        moves = moves + weight * movement(at, sweep);
         return;
       }
       const FreeNode free = free_nodes.nodes(at);
@@ -318,7 +318,7 @@ struct ContactMultiplier {
   }
 
   /// m, of a node for what multipliers have changed by in this step.
-  KOKKOS_INLINE_FUNCTION Vector3 movement(int at) const {
+  KOKKOS_INLINE_FUNCTION Vector3 movement(int at, int sweep) const {
     const FreeNode& free = free_nodes.nodes(at);
     Vector3 force;
     for (int c = 0; c < 3; ++c)
@@ -329,7 +329,7 @@ struct ContactMultiplier {
 
   /// The last sweep; leaves forces and status for the next step and for those who read them, and books the work done
   /// since the last.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const int i, int sweep) const {
     const ContactArrays& contact = search.contact;
     const MultiplierRow& r = multipliers.rows(i);
     const int s = r.slave;
@@ -344,7 +344,7 @@ struct ContactMultiplier {
     const bool active = r.active != 0;
     if (active) {
       const Vector3 begun = r.begun;
-      const Corrected now = corrected(r, nodes);
+      const Corrected now = corrected(r, nodes, sweep);
       force = now.force;
       pressing = now.pressing;
       slips = now.slips;
@@ -404,19 +404,22 @@ struct PredictFreeNodes {
   }
 };
 
-/// A phase of several pairs in one launch, over the nodes in their windows.
+/// A phase of one or two pairs in one launch, over the nodes in their windows.
 /// @tparam Pair a ContactMultiplier
 template <class Pair, int count>
 struct MultiplierPairs {
   Pair pairs[count];
+  int sweep;
 
+  /// No loop over the pairs: a GPU's threads would each copy them to memory of their own first, and know no more of a
+  /// pointer than that it points somewhere.
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
-    int k = i;
-    for (const Pair& pair : pairs) {
-      if (k >= 0 && k < pair.window.bound()) pair.item(phase, k);
-      k -= pair.window.bound();
-    }
+    const int of_first = pairs[0].window.bound();
+    if (i < of_first)
+      pairs[0].item(phase, i, sweep);
+    else if constexpr (count == 2)
+      pairs[1].item(phase, i - of_first, sweep);
     if constexpr (std::is_same_v<Phase, Multiplier::Finish>)
       if (i == 0) pairs[0].free_nodes.listed_count(0) = 0;
   }

@@ -68,15 +68,16 @@ void launch(const ExecutionSpace& space, const char* name, const Pairs& pairs) {
 }
 
 /// A phase of all pairs: two by two in one launch where they are of the same kind, as those of a joint are.
+/// @param sweep of Correct and Finish, from 1
 template <class Phase>
-void run_phase(const ExecutionSpace& space, const char* name, const std::vector<AnyMultiplier>& pairs) {
+void run_phase(const ExecutionSpace& space, const char* name, const std::vector<AnyMultiplier>& pairs, int sweep = 0) {
   for (std::size_t k = 0; k < pairs.size(); ++k)
     std::visit(
         [&](const auto& first) {
           using Pair = std::decay_t<decltype(first)>;
           const Pair* second = k + 1 < pairs.size() ? std::get_if<Pair>(&pairs[k + 1]) : nullptr;
-          if (second == nullptr) return launch<Phase>(space, name, MultiplierPairs<Pair, 1>{{first}});
-          launch<Phase>(space, name, MultiplierPairs<Pair, 2>{{first, *second}});
+          if (second == nullptr) return launch<Phase>(space, name, MultiplierPairs<Pair, 1>{{first}, sweep});
+          launch<Phase>(space, name, MultiplierPairs<Pair, 2>{{first, *second}, sweep});
           ++k;
         },
         pairs[k]);
@@ -100,18 +101,11 @@ std::vector<AnyMultiplier> multipliers_of(const scene::Scene& scene, const Nodal
   return pairs;
 }
 
-void set_sweep(std::vector<AnyMultiplier>& pairs, int sweep) {
-  for (AnyMultiplier& any : pairs) std::visit([&](auto& pair) { pair.sweep = sweep; }, any);
-}
-
 /// All pairs' multipliers are of one iteration: they may push the same nodes.
-void find_multipliers(const ExecutionSpace& space, std::vector<AnyMultiplier> pairs, int sweeps) {
-  for (int sweep = 1; sweep < sweeps; ++sweep) {
-    set_sweep(pairs, sweep);
-    run_phase<Multiplier::Correct>(space, "multipliers_correct", pairs);
-  }
-  set_sweep(pairs, sweeps);
-  run_phase<Multiplier::Finish>(space, "multipliers_finish", pairs);
+void find_multipliers(const ExecutionSpace& space, const std::vector<AnyMultiplier>& pairs, int sweeps) {
+  for (int sweep = 1; sweep < sweeps; ++sweep)
+    run_phase<Multiplier::Correct>(space, "multipliers_correct", pairs, sweep);
+  run_phase<Multiplier::Finish>(space, "multipliers_finish", pairs, sweeps);
 }
 
 }  // namespace

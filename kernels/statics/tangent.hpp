@@ -37,6 +37,11 @@ struct ElementStiffness {
   bool viscous;       ///< scale goes with V^(2/3), else V^(1/3)
   double bulk;        ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
 
+  bool operator==(const ElementStiffness& other) const {
+    return lambda == other.lambda && mu == other.mu && hourglass == other.hourglass && viscous == other.viscous &&
+           bulk == other.bulk;
+  }
+
   /// @param x modes of the coordinates, m
   /// @param u modes of the displacements, m
   /// @param force by direction and corner, N

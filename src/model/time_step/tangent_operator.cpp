@@ -23,10 +23,16 @@ TangentOperator::TangentOperator(const Assembly& assembly, int more_rows) {
 void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementStiffness>& stiffness,
                             const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
                             const NodeVector& f) const {
-  for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
-    const auto& range = assembly.parts[p];
-    Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
-                         ElementTangent{range.first_element, stiffness[p], corners_, position, u, corner_force_});
+  // Parts that follow each other and are alike in one launch: of a track's sleepers each takes less time than that.
+  const auto& parts = assembly.parts;
+  for (std::size_t p = 0, next; p < parts.size(); p = next) {
+    int count = parts[p].element_count;
+    for (next = p + 1; next < parts.size() && stiffness[next] == stiffness[p] &&
+                       parts[next].first_element == parts[p].first_element + count;
+         ++next)
+      count += parts[next].element_count;
+    Kokkos::parallel_for("element_tangent", Range(0, count),
+                         ElementTangent{parts[p].first_element, stiffness[p], corners_, position, u, corner_force_});
   }
   Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});

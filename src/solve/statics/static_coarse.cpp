@@ -135,7 +135,8 @@ void StaticCoarse::lay_modes() {
     gram[a] = turn;
   }
   mode_.resize(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) Eigen::Map<NodeModes>(mode_[n].data()) = rigid(n) * gram[aggregate_[n]];
+  on_host_threads(static_cast<int>(nodes),
+                  [&](int n) { Eigen::Map<NodeModes>(mode_[n].data()) = rigid(n) * gram[aggregate_[n]]; });
 }
 
 void StaticCoarse::lay_slaves() {
@@ -150,7 +151,13 @@ void StaticCoarse::lay_slaves() {
   }
 }
 
-/// Elements inside an aggregate that nothing holds resist none of its rigid motions.
+/// Whether the element resists none of its aggregate's rigid motions: nothing holds it, and it has no other.
+bool StaticCoarse::is_inside(const CornerNodes& corners) const {
+  return std::all_of(corners.begin(), corners.end(), [&](int n) {
+    return aggregate_[n] == aggregate_[corners[0]] && !unknowns_.follows(n) && unknowns_.projection(n) == nullptr;
+  });
+}
+
 void StaticCoarse::add_elements(const Assembly& assembly, const Array<double* [3]>& position) {
   const auto place = to_host(position);
   struct CornerMotion {
@@ -161,18 +168,16 @@ void StaticCoarse::add_elements(const Assembly& assembly, const Array<double* [3
   std::vector<int> touched;
   for (std::size_t e = 0; e < assembly.elements.size(); ++e) {
     const auto& corners = assembly.elements[e];
+    if (is_inside(corners)) continue;
     motions.clear();
     touched.clear();
-    bool held = false;
     for (int N = 0; N < 8; ++N) {
-      held = held || unknowns_.projection(corners[N]) != nullptr;
       each_motion(corners[N], [&](const Motion& motion) {
         motions.push_back({N, motion});
         if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end())
           touched.push_back(motion.aggregate);
       });
     }
-    if (touched.size() == 1 && !held) continue;
     double x[3][7];
     for (int i = 0; i < 3; ++i) {
       double corner_place[8];

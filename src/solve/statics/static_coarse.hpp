@@ -34,6 +34,7 @@ class StaticCoarse {
               int begin, int end, int largest);
   void lay_modes();
   void lay_slaves();
+  bool is_inside(const CornerNodes& corners) const;
   void add_elements(const Assembly& assembly, const Array<double* [3]>& position);
   void add_springs(const SpringCollector& springs, Blocks& blocks) const;
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "model/host_copy.hpp"
@@ -59,33 +60,40 @@ StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& 
   }
   element_blocks_.resize(sum.size());
   for (std::size_t n = 0; n < sum.size(); ++n) element_blocks_[n] = distinct(sum[n]);
+  diagonal_.resize(sum.size());
+  inverse_ = unset_array<double* [6]>("inverse blocks", sum.size());
+  device_diagonal_ = unset_array<double*>("tangent diagonal", sum.size());
+  inverse_on_host_ = Kokkos::create_mirror_view(inverse_);
+  diagonal_on_host_ = Kokkos::create_mirror_view(device_diagonal_);
 }
 
 void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
   shift_ = shift;
   tangent_.set_springs(springs.on_device());
   if (parts_ != nullptr) parts_->place(nodes_.position);
-  auto blocks = element_blocks_;
+  // The elements' part of the few blocks that springs concern, to be put back.
+  std::map<int, std::array<double, 6>> before;
+  auto& blocks = element_blocks_;
   for (std::size_t s = 0; s < springs.count(); ++s)
     for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k) {
       const Eigen::Vector3d own(springs.share()[k].data());
       unknowns_.each_lead(springs.node()[k], [&](const StaticUnknowns::Lead& lead) {
         const Eigen::Vector3d d = lead.share.transpose() * own;
         const auto more = distinct(springs.stiffness()[s] * d * d.transpose());
+        before.try_emplace(lead.row, blocks[lead.row]);
         for (int c = 0; c < 6; ++c) blocks[lead.row][c] += more[c];
       });
     }
   double least = 1e300;
-  diagonal_.resize(blocks.size());
   for (std::size_t n = 0; n < blocks.size(); ++n) {
     diagonal_[n] = (blocks[n][0] + blocks[n][1] + blocks[n][2]) / 3;
     if (diagonal_[n] > 0) least = std::min(least, diagonal_[n]);
   }
-  for (std::size_t n = 0; n < blocks.size(); ++n) {
+  on_host_threads(static_cast<int>(blocks.size()), [&](int n) {
     // A point mass that no spring holds, or a slave.
     if (!(diagonal_[n] > 0)) diagonal_[n] = least;
     Eigen::Matrix3d block = whole(blocks[n]) + shift * diagonal_[n] * Eigen::Matrix3d::Identity();
-    const double* p = unknowns_.projection(static_cast<int>(n));
+    const double* p = unknowns_.projection(n);
     Eigen::Matrix3d inverse;
     if (p == nullptr) {
       inverse = block.inverse();
@@ -94,10 +102,13 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
       block = P * block * P + diagonal_[n] * (Eigen::Matrix3d::Identity() - P);
       inverse = P * block.inverse() * P;
     }
-    blocks[n] = distinct(inverse);
-  }
-  inverse_ = to_device("inverse blocks", blocks);
-  device_diagonal_ = to_device("tangent diagonal", diagonal_);
+    const auto values = distinct(inverse);
+    for (int c = 0; c < 6; ++c) inverse_on_host_(n, c) = values[c];
+    diagonal_on_host_(n) = diagonal_[n];
+  });
+  for (const auto& [n, block] : before) blocks[n] = block;
+  Kokkos::deep_copy(inverse_, inverse_on_host_);
+  Kokkos::deep_copy(device_diagonal_, diagonal_on_host_);
 }
 
 void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {

@@ -50,6 +50,9 @@ class StaticTangent {
   std::vector<double> diagonal_;
   Array<double*> device_diagonal_;
   NodeBlocks inverse_;
+  // Kept, as fresh memory takes longer than what is written to it.
+  Array<double*>::HostMirror diagonal_on_host_;
+  NodeBlocks::HostMirror inverse_on_host_;
 };
 
 }  // namespace railwave

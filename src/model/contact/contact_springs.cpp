@@ -14,14 +14,6 @@ namespace {
 /// How much faster than at present two surfaces may close within the horizon.
 constexpr double closing_factor = 2;
 
-template <class HostArray>
-std::vector<Vec3> rows_of(const HostArray& values, const std::vector<int>& nodes) {
-  std::vector<Vec3> rows(nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < 3; ++i) rows[k][i] = values(nodes[k], i);
-  return rows;
-}
-
 /// What the master's surface is around each of its nodes.
 struct MasterNodes {
   std::vector<Vec3> normal;
@@ -131,9 +123,11 @@ ContactOnNodes contact_on_nodes(const AssembledScene& assembled, const std::vect
 std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& mass, const NodeArrays& nodes,
                                                     const ContactPair& pair, const ContactReach& within) {
   const double horizon = within.horizon;
-  const auto position = to_host(nodes.position), velocity = to_host(nodes.velocity);
-  const auto slaves = rows_of(position, pair.slave_nodes), slave_velocities = rows_of(velocity, pair.slave_nodes);
-  const auto masters = rows_of(position, pair.master_nodes), master_velocities = rows_of(velocity, pair.master_nodes);
+  const Array<int*>&of_slaves = pair.arrays.slave_nodes, of_masters = pair.arrays.master_nodes;
+  const auto slaves = rows_to_host(nodes.position, of_slaves),
+             slave_velocities = rows_to_host(nodes.velocity, of_slaves);
+  const auto masters = rows_to_host(nodes.position, of_masters),
+             master_velocities = rows_to_host(nodes.velocity, of_masters);
   const MasterNodes around(pair, masters);
   const NearestPoint nearest(masters);
   double fastest_master = 0;

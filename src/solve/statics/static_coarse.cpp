@@ -230,7 +230,7 @@ void StaticCoarse::factor(const SpringCollector& springs) {
   // The modes are orthonormal, so the tangent's shift is one of about its size here too.
   std::vector<double> shift(count_, 0), members(count_, 0);
   for (std::size_t n = 0; n < aggregate_.size(); ++n) {
-    shift[aggregate_[n]] += tangent_.shift() * tangent_.diagonal()[n];
+    shift[aggregate_[n]] += tangent_.shift() * tangent_.diagonal()(n);
     members[aggregate_[n]] += 1;
   }
   std::vector<Eigen::Triplet<double>> entries;

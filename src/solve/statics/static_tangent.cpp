@@ -60,11 +60,10 @@ StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& 
   }
   element_blocks_.resize(sum.size());
   for (std::size_t n = 0; n < sum.size(); ++n) element_blocks_[n] = distinct(sum[n]);
-  diagonal_.resize(sum.size());
   inverse_ = unset_array<double* [6]>("inverse blocks", sum.size());
   device_diagonal_ = unset_array<double*>("tangent diagonal", sum.size());
   inverse_on_host_ = Kokkos::create_mirror_view(inverse_);
-  diagonal_on_host_ = Kokkos::create_mirror_view(device_diagonal_);
+  diagonal_ = Kokkos::create_mirror_view(device_diagonal_);
 }
 
 void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
@@ -86,29 +85,28 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
     }
   double least = 1e300;
   for (std::size_t n = 0; n < blocks.size(); ++n) {
-    diagonal_[n] = (blocks[n][0] + blocks[n][1] + blocks[n][2]) / 3;
-    if (diagonal_[n] > 0) least = std::min(least, diagonal_[n]);
+    diagonal_(n) = (blocks[n][0] + blocks[n][1] + blocks[n][2]) / 3;
+    if (diagonal_(n) > 0) least = std::min(least, diagonal_(n));
   }
   on_host_threads(static_cast<int>(blocks.size()), [&](int n) {
     // A point mass that no spring holds, or a slave.
-    if (!(diagonal_[n] > 0)) diagonal_[n] = least;
-    Eigen::Matrix3d block = whole(blocks[n]) + shift * diagonal_[n] * Eigen::Matrix3d::Identity();
+    if (!(diagonal_(n) > 0)) diagonal_(n) = least;
+    Eigen::Matrix3d block = whole(blocks[n]) + shift * diagonal_(n) * Eigen::Matrix3d::Identity();
     const double* p = unknowns_.projection(n);
     Eigen::Matrix3d inverse;
     if (p == nullptr) {
       inverse = block.inverse();
     } else {
       const Eigen::Matrix3d P = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(p);
-      block = P * block * P + diagonal_[n] * (Eigen::Matrix3d::Identity() - P);
+      block = P * block * P + diagonal_(n) * (Eigen::Matrix3d::Identity() - P);
       inverse = P * block.inverse() * P;
     }
     const auto values = distinct(inverse);
     for (int c = 0; c < 6; ++c) inverse_on_host_(n, c) = values[c];
-    diagonal_on_host_(n) = diagonal_[n];
   });
   for (const auto& [n, block] : before) blocks[n] = block;
   Kokkos::deep_copy(inverse_, inverse_on_host_);
-  Kokkos::deep_copy(device_diagonal_, diagonal_on_host_);
+  Kokkos::deep_copy(device_diagonal_, diagonal_);
 }
 
 void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {

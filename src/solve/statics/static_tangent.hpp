@@ -30,7 +30,7 @@ class StaticTangent {
 
   double shift() const { return shift_; }
   /// N/m, by row: a mean of its own block.
-  const std::vector<double>& diagonal() const { return diagonal_; }
+  const Array<double*>::HostMirror& diagonal() const { return diagonal_; }
   /// Inverses of the diagonal blocks, held directions taken out.
   const NodeBlocks& inverse_blocks() const { return inverse_; }
 
@@ -47,11 +47,10 @@ class StaticTangent {
   std::vector<ElementStiffness> stiffness_;  ///< by part
   std::vector<int> part_of_element_;
   std::vector<std::array<double, 6>> element_blocks_;
-  std::vector<double> diagonal_;
   Array<double*> device_diagonal_;
   NodeBlocks inverse_;
   // Kept, as fresh memory takes longer than what is written to it.
-  Array<double*>::HostMirror diagonal_on_host_;
+  Array<double*>::HostMirror diagonal_;
   NodeBlocks::HostMirror inverse_on_host_;
 };
 

@@ -160,47 +160,62 @@ bool StaticCoarse::is_inside(const CornerNodes& corners) const {
 
 void StaticCoarse::add_elements(const Assembly& assembly, const Array<double* [3]>& position) {
   const auto place = to_host(position);
-  struct CornerMotion {
-    int corner;
-    Motion motion;
-  };
-  std::vector<CornerMotion> motions;
-  std::vector<int> touched;
-  for (std::size_t e = 0; e < assembly.elements.size(); ++e) {
-    const auto& corners = assembly.elements[e];
-    if (is_inside(corners)) continue;
-    motions.clear();
-    touched.clear();
-    for (int N = 0; N < 8; ++N) {
-      each_motion(corners[N], [&](const Motion& motion) {
-        motions.push_back({N, motion});
-        if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end())
-          touched.push_back(motion.aggregate);
-      });
+  std::vector<int> crossing;
+  for (std::size_t e = 0; e < assembly.elements.size(); ++e)
+    if (!is_inside(assembly.elements[e])) crossing.push_back(static_cast<int>(e));
+  // So many at a time, as their blocks take ten times their own memory; and in the same memory again, as threads would
+  // wait for each other to be given some.
+  constexpr int at_once = 4096;
+  std::vector<ElementPart> of_element(at_once);
+  const int all = static_cast<int>(crossing.size());
+  for (int first = 0; first < all; first += at_once) {
+    const int count = std::min(at_once, all - first);
+    on_host_threads(count, [&](int k) {
+      const int e = crossing[first + k];
+      find_blocks(assembly.elements[e], tangent_.stiffness_of(e), place, of_element[k]);
+    });
+    for (int k = 0; k < count; ++k)
+      for (const auto& one : of_element[k].blocks)
+        of_elements_.try_emplace(one.place, Block::Zero()).first->second += one.block;
+  }
+}
+
+/// An element's part of E.
+void StaticCoarse::find_blocks(const CornerNodes& corners, const ElementStiffness& stiffness,
+                               const Array<double* [3]>::HostMirror& place, ElementPart& found) const {
+  auto& [motions, touched, blocks] = found;
+  motions.clear();
+  touched.clear();
+  blocks.clear();
+  for (int N = 0; N < 8; ++N)
+    each_motion(corners[N], [&, &motions = motions, &touched = touched](const Motion& motion) {
+      motions.push_back({N, motion});
+      if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end())
+        touched.push_back(motion.aggregate);
+    });
+  double x[3][7];
+  for (int i = 0; i < 3; ++i) {
+    double corner_place[8];
+    for (int N = 0; N < 8; ++N) corner_place[N] = place(corners[N], i);
+    modes_of(corner_place, x[i]);
+  }
+  for (int column : touched) {
+    const std::size_t first = blocks.size();
+    for (int row : touched)
+      if (row >= column) blocks.push_back({{row, column}, Block::Zero()});
+    for (int m = 0; m < modes; ++m) {
+      double moved[3][8] = {}, u[3][7], force[3][8];
+      for (const auto& at : motions)
+        if (at.motion.aggregate == column)
+          for (int i = 0; i < 3; ++i) moved[i][at.corner] += (*at.motion.mode)[3 * m + i];
+      for (int i = 0; i < 3; ++i) modes_of(moved[i], u[i]);
+      stiffness(x, u, force);
+      for (std::size_t b = first; b < blocks.size(); ++b)
+        for (const auto& at : motions)
+          if (at.motion.aggregate == blocks[b].place.first)
+            for (int k = 0; k < modes; ++k)
+              for (int i = 0; i < 3; ++i) blocks[b].block(k, m) += (*at.motion.mode)[3 * k + i] * force[i][at.corner];
     }
-    double x[3][7];
-    for (int i = 0; i < 3; ++i) {
-      double corner_place[8];
-      for (int N = 0; N < 8; ++N) corner_place[N] = place(corners[N], i);
-      modes_of(corner_place, x[i]);
-    }
-    const ElementStiffness& stiffness = tangent_.stiffness_of(static_cast<int>(e));
-    for (int column : touched)
-      for (int m = 0; m < modes; ++m) {
-        double moved[3][8] = {}, u[3][7], force[3][8];
-        for (const CornerMotion& at : motions)
-          if (at.motion.aggregate == column)
-            for (int i = 0; i < 3; ++i) moved[i][at.corner] += (*at.motion.mode)[3 * m + i];
-        for (int i = 0; i < 3; ++i) modes_of(moved[i], u[i]);
-        stiffness(x, u, force);
-        for (const CornerMotion& at : motions) {
-          const int row = at.motion.aggregate;
-          if (row < column) continue;
-          Block& block = of_elements_.try_emplace({row, column}, Block::Zero()).first->second;
-          for (int k = 0; k < modes; ++k)
-            for (int i = 0; i < 3; ++i) block(k, m) += (*at.motion.mode)[3 * k + i] * force[i][at.corner];
-        }
-      }
   }
 }
 

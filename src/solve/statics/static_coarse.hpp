@@ -47,6 +47,23 @@ class StaticCoarse {
   template <class Visit>
   void each_motion(int row, const Visit& visit) const;
 
+  /// What an element has of E, and what is needed to find it.
+  struct ElementPart {
+    struct CornerMotion {
+      int corner;
+      Motion motion;
+    };
+    struct PlacedBlock {
+      std::pair<int, int> place;  ///< as in Blocks
+      Block block;
+    };
+    std::vector<CornerMotion> motions;
+    std::vector<int> touched;  ///< aggregates
+    std::vector<PlacedBlock> blocks;
+  };
+  void find_blocks(const CornerNodes& corners, const ElementStiffness& stiffness,
+                   const Array<double* [3]>::HostMirror& place, ElementPart& found) const;
+
   const StaticTangent& tangent_;
   const StaticUnknowns& unknowns_;
   int count_ = 0;

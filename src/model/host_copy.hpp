@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <exception>
 #include <mutex>
 #include <vector>
 
-#include "kernels/support/packed_rows.hpp"
+#include "kernels/support/spaces.hpp"
 
 /// Copies between std::vector and device arrays, and work of the host on what is copied.
 namespace railwave {
@@ -45,17 +44,6 @@ std::vector<T> to_vector(const Array<T*>& device) {
   using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   Kokkos::deep_copy(Plain(values.data(), values.size()), device);
   return values;
-}
-
-/// An array's rows at listed places, without the others: of a million nodes' places a GPU's host has some thousand.
-inline std::vector<std::array<double, 3>> rows_to_host(const Array<double* [3]>& array, const Array<int*>& places) {
-  const auto count = static_cast<int>(places.extent(0));
-  const auto packed = unset_array<double*>("rows for the host", 3 * places.extent(0));
-  Kokkos::parallel_for("pack_rows", Range(0, count), PackedRows<double, 3, true>{array, places, packed});
-  const auto host = to_host(packed);
-  std::vector<std::array<double, 3>> rows(count);
-  for (int k = 0; k < count; ++k) rows[k] = {host(3 * k), host(3 * k + 1), host(3 * k + 2)};
-  return rows;
 }
 
 /// Calls of the host's threads; the first exception is kept.

@@ -5,7 +5,7 @@
 
 #include "mesh/hexahedron.hpp"
 #include "mesh/vectors.hpp"
-#include "model/host_copy.hpp"
+#include "model/contact/surface_rows.hpp"
 #include "model/sets/point_search.hpp"
 
 namespace railwave {
@@ -124,10 +124,10 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
                                                     const ContactPair& pair, const ContactReach& within) {
   const double horizon = within.horizon;
   const Array<int*>&of_slaves = pair.arrays.slave_nodes, of_masters = pair.arrays.master_nodes;
-  const auto slaves = rows_to_host(nodes.position, of_slaves),
-             slave_velocities = rows_to_host(nodes.velocity, of_slaves);
-  const auto masters = rows_to_host(nodes.position, of_masters),
-             master_velocities = rows_to_host(nodes.velocity, of_masters);
+  const auto slaves = rows_on_host(nodes.position, of_slaves),
+             slave_velocities = rows_on_host(nodes.velocity, of_slaves);
+  const auto masters = rows_on_host(nodes.position, of_masters),
+             master_velocities = rows_on_host(nodes.velocity, of_masters);
   const MasterNodes around(pair, masters);
   const NearestPoint nearest(masters);
   double fastest_master = 0;

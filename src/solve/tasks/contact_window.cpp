@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "kernels/contact/near_nodes.hpp"
-#include "model/host_copy.hpp"
+#include "model/contact/surface_rows.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {
@@ -23,21 +23,6 @@ constexpr long steps_between_near_checks = 64, steps_between_near_checks_settlin
 /// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
 /// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
 constexpr double sudden_share = 0.005;
-
-struct GatherRows {
-  Array<const double* [3]> values;
-  Array<const int*> rows;
-  Array<double* [3]> result;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    for (int k = 0; k < 3; ++k) result(i, k) = values(rows(i), k);
-  }
-};
-
-Array<double* [3]> rows_of(const Array<double* [3]>& values, const Array<int*>& rows) {
-  const auto result = unset_array<double* [3]>("rows", rows.extent(0));
-  Kokkos::parallel_for("gather_rows", Range(0, rows.extent(0)), GatherRows{values, rows, result});
-  return result;
-}
 
 using Rows = Array<double* [3]>::HostMirror;
 
@@ -191,8 +176,8 @@ void fill_window(ContactWindow& window, int slave_count, const std::vector<Windo
 
 void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
   const ContactArrays& contact = pair.arrays;
-  pair.slaves_at_layout = rows_of(nodes.position, contact.slave_nodes);
-  pair.masters_at_layout = rows_of(nodes.position, contact.master_nodes);
+  pair.slaves_at_layout = gathered_rows(nodes.position, contact.slave_nodes);
+  pair.masters_at_layout = gathered_rows(nodes.position, contact.master_nodes);
   const Rows slaves = to_host(pair.slaves_at_layout), masters = to_host(pair.masters_at_layout);
 
   // A slave's projection lies on a segment whose corners are at most a diagonal away from it.

@@ -88,6 +88,7 @@ struct TieGather {
   TieArrays ties;
   Array<const int*> target;  ///< by master: row of the sum
   Array<double* [3]> sum;    ///< N
+  bool alone = false;        ///< nothing else has a part in these sums, and nobody has cleared them
 
   /// One team for each component of each master node: where the masters are coarse, they have many slaves.
   template <class Member>
@@ -102,7 +103,7 @@ struct TieGather {
                   share.slope_eta * ties.passed_on(share.slave, 6 + k);
         },
         total);
-    if (team.team_rank() == 0) sum(target(m), k) += total;
+    if (team.team_rank() == 0) sum(target(m), k) = (alone ? 0.0 : sum(target(m), k)) + total;
   }
 };
 

@@ -113,7 +113,7 @@ void put_others_beside(Plan& plan, RowExchange& exchange) {
   const auto later = std::find_if(plan.forces.begin(), plan.forces.end(),
                                   [](const Task& task) { return task.stage > Stage::own_forces; });
   const auto beside = [&](const Task& task) {
-    return task.begins == Begins::in_order ? in_space({task}, exchange.side_space()).front() : task;
+    return task.apart() ? task : in_space({task}, exchange.side_space()).front();
   };
   std::transform(later, plan.forces.end(), later, beside);
   std::transform(plan.motion.begin(), plan.motion.end(), plan.motion.begin(), beside);

@@ -226,7 +226,7 @@ struct StepRecording::Recordings {
       ready.tasks = graph.after(ready.tasks, 0, [this, &instant] { run_recordable(instant); });
       return {ready.tasks, ready.tasks};
     }
-    LaunchGraph::Node own_forces = ready.all, elements = ready.all;
+    LaunchGraph::Node own_forces = ready.all, elements = ready.all, beside_loads = ready.all;
     std::vector<const Task*> apart;
     for (std::size_t first = 0, end = 0; first < recordable.size(); first = end) {
       const Stage stage = recordable[first].stage;
@@ -234,46 +234,66 @@ struct StepRecording::Recordings {
       for (; end < recordable.size() && recordable[end].stage == stage; ++end) {
         const Task& task = recordable[end];
         if (!task.due(model.step)) continue;
-        if (task.begins == Begins::in_order)
-          lanes[task.lane].push_back(&task);
-        else
+        if (task.apart())
           apart.push_back(&task);
+        else
+          lanes[task.lane].push_back(&task);
       }
       if (lanes.empty()) continue;
       const bool of_forces = stage == Stage::own_forces;
       std::map<int, LaunchGraph::Node> done;
-      std::vector<LaunchGraph::Node> ends, all_ends, element_ends;
+      std::vector<LaunchGraph::Node> ends, all_ends, element_ends, unloaded_ends;
+      bool all_in_order = true;
       for (const auto& [lane, tasks] : lanes) {
         const bool of_elements = of_forces && lane >= OwnForceLanes::elements;
         const auto& begin = of_elements || stage < Stage::own_forces ? ready.all : ready.tasks;
-        const LaunchGraph::Node last = record_lane(graph, begin, tasks, done, instant);
+        const LaunchGraph::Node last = record_lane(graph, {begin, beside_loads}, tasks, done, instant);
         done.emplace(lane, last);
         all_ends.push_back(last);
         if (tasks.front()->part == 0) ends.push_back(last);
         if (of_elements) element_ends.push_back(last);
+        if (of_forces && lane >= OwnForceLanes::contact && tasks.front()->part == 0) unloaded_ends.push_back(last);
+        all_in_order = all_in_order && tasks.back()->begins == Begins::in_order;
       }
+      if (!all_in_order) ends.push_back(ready.tasks);
       ready.tasks = LaunchGraph::joined(ends);
+      if (!unloaded_ends.empty()) beside_loads = LaunchGraph::joined(unloaded_ends);
       if (stage <= Stage::own_forces) ready.all = own_forces = LaunchGraph::joined(all_ends);
       if (!element_ends.empty()) elements = LaunchGraph::joined(element_ends);
     }
     // Those that others wait for come before them.
     std::vector<LaunchGraph::Node> last{ready.tasks};
-    for (const Task* task : apart)
-      last.push_back(
-          record_lane(graph, task->begins == Begins::after_elements ? elements : own_forces, {task}, {}, instant));
+    for (const Task* task : apart) {
+      const LaunchGraph::Node& begin = task->begins == Begins::after_elements ? elements : own_forces;
+      last.push_back(record_lane(graph, {begin, begin}, {task}, {}, instant));
+    }
     const LaunchGraph::Node all = LaunchGraph::joined(last);
     return {in_parts ? ready.tasks : all, all};
   }
 
+  /// What a lane begins after.
+  struct LaneBegin {
+    LaunchGraph::Node in_order, beside_loads;
+  };
+
   /// @param done lanes of the same stage
-  LaunchGraph::Node record_lane(LaunchGraph& graph, LaunchGraph::Node ready, const std::vector<const Task*>& tasks,
+  LaunchGraph::Node record_lane(LaunchGraph& graph, const LaneBegin& begin, const std::vector<const Task*>& tasks,
                                 const std::map<int, LaunchGraph::Node>& done, const Instant& instant) const {
+    bool in_order = tasks.front()->begins != Begins::beside_loads;
+    LaunchGraph::Node ready = in_order ? begin.in_order : begin.beside_loads;
     for (std::size_t first = 0, end = 0; first < tasks.size(); first = end) {
-      if (const auto other = done.find(tasks[first]->joins); other != done.end())
+      const Task& task = *tasks[first];
+      if (const auto other = done.find(task.joins); other != done.end())
         ready = first == 0 ? other->second : LaunchGraph::joined({ready, other->second});
-      const bool bulk = tasks[first]->bulk;
-      for (end = first + 1; end < tasks.size() && tasks[end]->joins < 0 && tasks[end]->bulk == bulk;) ++end;
-      ready = graph.after(ready, urgency(*tasks[first]), [&tasks, first, end, &instant] {
+      if (!in_order && task.begins != Begins::beside_loads) {
+        ready = LaunchGraph::joined({ready, begin.in_order});
+        in_order = true;
+      }
+      const auto goes_on = [&task](const Task& next) {
+        return next.joins < 0 && next.bulk == task.bulk && next.begins == task.begins;
+      };
+      for (end = first + 1; end < tasks.size() && goes_on(*tasks[end]);) ++end;
+      ready = graph.after(ready, urgency(task), [&tasks, first, end, &instant] {
         for (std::size_t t = first; t < end; ++t) tasks[t]->run(instant);
       });
     }

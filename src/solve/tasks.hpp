@@ -61,6 +61,7 @@ enum class Stage {
 /// What a task waits for, where tasks run side by side. In the list it comes after all that it waits for in any case.
 enum class Begins {
   in_order,          ///< the stages before its own; of elements in parts the first part alone
+  beside_loads,      ///< of its step, elements as above, contact, and its own lane; neither loads nor what is passed on
   after_own_forces,  ///< Stage::own_forces, with all parts of the elements. No other task of its step waits for it
   after_elements     ///< elements alone, all of them. Of the next step only elements wait for it
 };
@@ -86,6 +87,9 @@ struct Task {
   bool recordable = true;
 
   bool due(long step_number) const { return step_number % every == at; }
+
+  /// Whether no other task of its step waits for it.
+  bool apart() const { return begins == Begins::after_own_forces || begins == Begins::after_elements; }
 };
 
 /// Lanes of Stage::own_forces. On a device that the first launches fill, what comes later waits for room: small ones

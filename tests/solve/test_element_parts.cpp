@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 #include <utility>
@@ -64,32 +65,69 @@ End in_order(Model& model) {
   return after_steps(model, [&](const Due& all) { all.run(model); });
 }
 
+/// Those of a step's tasks that have not been taken yet, by kind.
+class Rest {
+ public:
+  explicit Rest(const Due& all) : all_(all), left_(all.tasks.size()) {}
+
+  template <class Wanted>
+  Due take(const Wanted& wanted) {
+    Due some = all_;
+    some.tasks.clear();
+    for (const Task& task : all_.tasks)
+      if (wanted(task)) some.tasks.push_back(task);
+    left_ -= some.tasks.size();
+    return some;
+  }
+
+  bool empty() const { return left_ == 0; }
+
+ private:
+  const Due& all_;
+  std::size_t left_;
+};
+
 /// All but elements as early as what it waits for allows: loads and contact of a step before the second part of the
 /// elements of the step before, and before the nodes that these move.
 End elements_last(Model& model) {
   Due left;
   return after_steps(model, [&](const Due& all) {
-    std::size_t taken = 0;
-    const auto take = [&](const auto& wanted) {
-      Due some = all;
-      some.tasks.clear();
-      for (const Task& task : all.tasks)
-        if (wanted(task)) some.tasks.push_back(task);
-      taken += some.tasks.size();
-      return some;
-    };
-    const auto first = [](const Task& task) { return task.part == 0 && task.begins == Begins::in_order; };
-    const Due frames = take([](const Task& task) { return task.stage < Stage::own_forces; });
+    Rest rest(all);
+    const auto first = [](const Task& task) { return task.part == 0 && !task.apart(); };
+    const Due frames = rest.take([](const Task& task) { return task.stage < Stage::own_forces; });
     if (!frames.tasks.empty()) left.run(model);
     frames.run(model);
-    take([](const Task& task) { return task.stage == Stage::own_forces && !of_elements(task); }).run(model);
+    rest.take([](const Task& task) { return task.stage == Stage::own_forces && !of_elements(task); }).run(model);
     if (frames.tasks.empty()) left.run(model);
-    take([&](const Task& task) { return of_elements(task) && first(task); }).run(model);
-    take([&](const Task& task) { return task.stage > Stage::own_forces && first(task); }).run(model);
-    left = take([&](const Task& task) { return !first(task); });
-    REQUIRE(taken == all.tasks.size());
+    rest.take([&](const Task& task) { return of_elements(task) && first(task); }).run(model);
+    rest.take([&](const Task& task) { return task.stage > Stage::own_forces && first(task); }).run(model);
+    left = rest.take([&](const Task& task) { return !first(task); });
+    REQUIRE(rest.empty());
     if (all.step == steps - 1) left.run(model);
   });
+}
+
+/// Loads as late as is allowed: after ties and multipliers on whose nodes none act.
+End loads_last(Model& model) {
+  return after_steps(model, [&](const Due& all) {
+    Rest rest(all);
+    const auto beside = [](const Task& task) { return task.begins == Begins::beside_loads; };
+    const auto of_loads = [](const Task& task) {
+      return task.stage == Stage::own_forces && task.lane < OwnForceLanes::contact;
+    };
+    const auto own = [](const Task& task) { return task.stage <= Stage::own_forces; };
+    rest.take([&](const Task& task) { return own(task) && !of_loads(task); }).run(model);
+    rest.take(beside).run(model);
+    rest.take(of_loads).run(model);
+    rest.take([&](const Task& task) { return !own(task) && !beside(task); }).run(model);
+    REQUIRE(rest.empty());
+  });
+}
+
+bool any_beside_loads(Model& model) {
+  const Plan plan = make_plan(model, StepKind::advancing);
+  const auto beside = [](const Task& task) { return task.begins == Begins::beside_loads; };
+  return std::any_of(plan.forces.begin(), plan.forces.end(), beside);
 }
 
 }  // namespace
@@ -98,7 +136,12 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
   TiedBlocks blocks;
   blocks.fine = {8, 8, 32};
   scene::Scene scene = tied_and_open(blocks);
+  bool loaded = true;
   SECTION("ties and non-reflecting ends") {}
+  SECTION("ties on which no load acts") {
+    scene.loads.pop_back();
+    loaded = false;
+  }
   SECTION("in single precision") { scene.solver.precision = scene::Precision::single_precision; }
   SECTION("in mixed precision") { scene.solver.precision = scene::Precision::mixed; }
   SECTION("ends without ties") {
@@ -112,6 +155,14 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
     scene.parts[1].stiffness_damping = 0;
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
   }
+  SECTION("multipliers on whose nodes no load acts") {
+    scene = moved_blocks();
+    for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
+    scene.parts[1].stiffness_damping = 0;
+    scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+    scene.loads.pop_back();
+    loaded = false;
+  }
   SECTION("contact by springs") {
     scene = moved_blocks();
     for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
@@ -123,9 +174,13 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
   REQUIRE(divided.parts.group >= 0);
   CHECK(divided.parts.blocks[0].extent(0) > 0);
   CHECK(divided.parts.blocks[1].extent(0) > 0);
-  const End expected = in_order(whole), end = elements_last(divided);
-  CHECK(end.position == expected.position);
-  CHECK(end.velocity == expected.velocity);
+  CHECK(any_beside_loads(whole) == !loaded);
+  Model late = model_in_parts(scene, "2");
+  const End expected = in_order(whole);
+  for (const End& end : {elements_last(divided), loads_last(late)}) {
+    CHECK(end.position == expected.position);
+    CHECK(end.velocity == expected.velocity);
+  }
 }
 
 TEST_CASE("elements come in one part where they are not one launch") {

@@ -43,6 +43,10 @@ void recorded_as_plain(const scene::Scene& scene) {
 TEST_CASE("stages of a step come one after the other") {
   scene::Scene scene = moved_blocks();
   SECTION("penalty") {}
+  SECTION("multipliers on whose nodes no load acts") {
+    scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+    scene.loads.pop_back();
+  }
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   Model model;
   build_model(scene, model);
@@ -72,6 +76,10 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
     scene.solver.subcycling = true;
     scene.prescribed_motions.clear();
   }
+  SECTION("multipliers on whose nodes no load acts") {
+    scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+    scene.loads.pop_back();
+  }
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   SECTION("two contacts by multipliers") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
@@ -87,7 +95,8 @@ TEST_CASE("nodes that wait for neither ties nor non-reflecting ends move beside 
   TiedBlocks blocks;
   SECTION("double") {}
   SECTION("single") { blocks.precision = scene::Precision::single_precision; }
-  const scene::Scene scene = tied_and_open(blocks);
+  scene::Scene scene = tied_and_open(blocks);
+  SECTION("no load on the tied nodes") { scene.loads.pop_back(); }
   Model model;
   build_model(scene, model);
   REQUIRE(model.early_shared > 0);

@@ -16,6 +16,7 @@ struct Ties {
   std::unordered_map<int, int> place_of_slave;  ///< by model node number: position in `places`
   std::vector<int> masters;                     ///< ascending
   bool at_ends = false;                         ///< whether a master is a non-reflecting end's node too
+  bool unloaded = false;                        ///< neither loads nor non-reflecting ends act on masters and slaves
   Array<int*> frame;                            ///< by slave, where nodes are in single precision
 
   /// Where a node is tied to; null: nowhere.

@@ -32,11 +32,11 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
     concerned.insert(concerned.end(), pair.master_nodes.begin(), pair.master_nodes.end());
   }
   // Ties and non-reflecting ends add their forces to the load of a node: its row needs that sum, even if no load acts.
-  std::vector<char> added(assembly.nodes.size(), 0);
-  for (const auto* nodes : {&ties.masters, &ends.nodes}) {
-    for (int n : *nodes) added[n] = 1;
+  std::vector<char> of_tie(assembly.nodes.size(), 0), of_end(assembly.nodes.size(), 0);
+  for (int n : ties.masters) of_tie[n] = 1;
+  for (int n : ends.nodes) of_end[n] = 1;
+  for (const auto* nodes : {&ties.masters, &ends.nodes})
     concerned.insert(concerned.end(), nodes->begin(), nodes->end());
-  }
   std::sort(concerned.begin(), concerned.end());
   concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
   const int rows = static_cast<int>(concerned.size());
@@ -46,17 +46,23 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
   std::vector<int> first(rows + 1, 0);
   for (int n : contributions.node) ++first[row_of_node[n] + 1];
   for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
+  const auto bears_load = [&](int n) {
+    const int r = row_of_node[n];
+    return of_end[n] != 0 || (r >= 0 && first[r] < first[r + 1]);
+  };
   for (ContactPair& pair : contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes)
-        pair.loaded = pair.loaded || added[n] != 0 || first[row_of_node[n]] < first[row_of_node[n] + 1];
+      for (int n : *nodes) pair.loaded = pair.loaded || of_tie[n] != 0 || bears_load(n);
+  ties.unloaded = std::none_of(ties.masters.begin(), ties.masters.end(), bears_load) &&
+                  std::none_of(ties.places.begin(), ties.places.end(),
+                               [&](const TiedPlace& tied) { return bears_load(tied.slave); });
   std::vector<int> filled(first.begin(), first.end() - 1);
   std::vector<RowShare> sorted(contributions.node.size());
   for (const RowShare& share : contributions.share)
     sorted[filled[row_of_node[contributions.node[share.contribution]]]++] = share;
   std::vector<LoadedRow> loaded;
   for (int r = 0; r < rows; ++r)
-    if (first[r + 1] > first[r] || added[concerned[r]] != 0)
+    if (bears_load(concerned[r]) || (of_tie[concerned[r]] != 0 && !ties.unloaded))
       loaded.push_back({r, concerned[r], first[r], first[r + 1]});
 
   ExternalForces& external = nodal.external;
@@ -89,7 +95,7 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
   ends.alone.assign(assembly.nodes.size(), 0);
   for (int n : ends.nodes) {
     ends.alone[n] = first[row_of_node[n]] == first[row_of_node[n] + 1] ? 1 : 0;
-    ties.at_ends = ties.at_ends || std::binary_search(ties.masters.begin(), ties.masters.end(), n);
+    ties.at_ends = ties.at_ends || of_tie[n] != 0;
   }
   for (const ContactPair& pair : contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})

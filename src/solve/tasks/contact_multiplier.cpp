@@ -130,13 +130,15 @@ MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& no
                      run_phase<Multiplier::Begin>(instant.space(), "multipliers_begin",
                                                   multipliers_of(scene, nodal, contacts, kind, instant.elapsed));
                    }};
-  const Task find{
-      "multipliers of" + names, "d", [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
-        Kokkos::parallel_for("multipliers_predict", SpreadRange(instant.space(), 0, most_listed(nodal, contacts)),
-                             PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
-        find_multipliers(instant.space(), multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
-      }};
-  return {{search, begin}, {find}};
+  Task find{"multipliers of" + names, "d",
+            [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+              Kokkos::parallel_for("multipliers_predict", SpreadRange(instant.space(), 0, most_listed(nodal, contacts)),
+                                   PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
+              find_multipliers(instant.space(), multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
+            }};
+  const auto loaded = [](const ContactPair& pair) { return !pair.has_springs() && pair.loaded; };
+  if (std::none_of(contacts.begin(), contacts.end(), loaded)) find.begins = Begins::beside_loads;
+  return {{search, begin}, {std::move(find)}};
 }
 
 }  // namespace railwave

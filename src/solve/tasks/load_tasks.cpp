@@ -105,8 +105,9 @@ std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties) {
   Task gather{"gather of ties", "a", [&nodal, &ties](const Instant& instant) {
                 const TieArrays& arrays = ties.arrays;
                 Kokkos::parallel_for("tie_gather", SumTeams(instant.space(), 3 * arrays.master_count, threads_of_sum),
-                                     TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
+                                     TieGather{arrays, arrays.master_rows, nodal.external.sum.load, ties.unloaded});
               }};
+  if (ties.unloaded) force.begins = gather.begins = Begins::beside_loads;
   return placed({std::move(force), std::move(gather)}, Stage::passed_on, 0);
 }
 

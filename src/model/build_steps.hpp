@@ -60,8 +60,9 @@ void build_motion_histories(const Ties& ties, const std::vector<PrescribedSet>& 
 /// external_forces.cpp: rows of the nodes on which other forces than elements' act, and the contributions to each
 void build_external_forces(const Assembly& assembly, const Contributions& contributions,
                            std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
-/// prescribed_nodes.cpp: sets of nodes that move as rigid motions say
-void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed);
+/// prescribed_nodes.cpp: sets of nodes that move as rigid motions say, after the external forces
+void build_prescribed_motions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                              const Ties& ties, const NodalState& nodal, std::vector<PrescribedSet>& prescribed);
 /// ties.cpp: places of slave nodes on their masters' faces
 void build_ties(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, Ties& ties);
 /// non_reflecting_ends.cpp: dashpots of the ends

@@ -59,9 +59,9 @@ EarlyNodes early_nodes(const Model& model, const RowExchange* exchange) {
 }
 
 std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
-  std::vector<Task> tasks = placed(prescribed_tasks(model, model.prescribed), Stage::motion, 0);
+  std::vector<Task> tasks = prescribed_tasks(model, model.prescribed);
   if (model.beams && kind != StepKind::advancing)
-    append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
+    append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, MotionLanes::rotations));
   append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange),
                            early_nodes(model, exchange)));
   if (model.ties.arrays.active())
@@ -165,7 +165,7 @@ std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdat
   append(tasks, tie_tasks(model, model.ties));
   append(tasks, placed(non_reflecting_tasks(model, model.ends, kind),
                        model.ties.at_ends ? Stage::last_forces : Stage::passed_on, 1));
-  append(tasks, placed(multipliers.find, Stage::motion, 0));
+  append(tasks, placed(multipliers.find, Stage::motion, MotionLanes::contact));
   return tasks;
 }
 

@@ -99,6 +99,12 @@ struct OwnForceLanes {
   static constexpr int beams = 0, loads = 1, contact = 2, elements = 3;
 };
 
+/// Lanes of Stage::motion.
+struct MotionLanes {
+  /// And one more for each prescribed motion whose nodes no multipliers push. Those with common nodes share one.
+  static constexpr int contact = 0, early_nodes = 1, rotations = 2, prescribed = 3;
+};
+
 /// Puts tasks into a lane of a stage.
 std::vector<Task> placed(std::vector<Task> tasks, Stage stage, int lane);
 
@@ -159,7 +165,7 @@ std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflect
 /// (a) Beams, and torques on points.
 Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind);
 
-/// (g) Nodes that a motion is prescribed for, before the others.
+/// (g) Nodes that a motion is prescribed for, before the others; placed.
 std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed);
 
 /// (f) to (j) Rotations of beams.

@@ -32,6 +32,15 @@ inline scene::Scene moved_blocks() {
   return scene;
 }
 
+/// The same blocks with motions prescribed of nodes that no multipliers push: of one set under load, of one without.
+inline scene::Scene driven_apart(scene::Scene scene) {
+  scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+  scene.constraints.clear();
+  scene.prescribed_motions[0].target = "lower.z_min";
+  scene.prescribed_motions[1].target = "upper.z_max";
+  return scene;
+}
+
 /// Tied blocks that loads press and pull, with a non-reflecting end.
 inline scene::Scene tied_and_open(const TiedBlocks& blocks) {
   scene::Scene scene = blocks.scene(4e-4);

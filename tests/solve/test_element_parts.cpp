@@ -107,7 +107,15 @@ End elements_last(Model& model) {
   });
 }
 
-/// Loads as late as is allowed: after ties and multipliers on whose nodes none act.
+/// Tasks after the forces of elements, the last lanes of each stage first.
+Due last_lanes_first(Due due) {
+  std::stable_sort(due.tasks.begin(), due.tasks.end(), [](const Task& one, const Task& other) {
+    return one.stage != other.stage ? one.stage < other.stage : one.lane > other.lane;
+  });
+  return due;
+}
+
+/// Loads as late as is allowed: after ties, multipliers and prescribed motions on whose nodes none act.
 End loads_last(Model& model) {
   return after_steps(model, [&](const Due& all) {
     Rest rest(all);
@@ -117,9 +125,9 @@ End loads_last(Model& model) {
     };
     const auto own = [](const Task& task) { return task.stage <= Stage::own_forces; };
     rest.take([&](const Task& task) { return own(task) && !of_loads(task); }).run(model);
-    rest.take(beside).run(model);
+    last_lanes_first(rest.take(beside)).run(model);
     rest.take(of_loads).run(model);
-    rest.take([&](const Task& task) { return !own(task) && !beside(task); }).run(model);
+    last_lanes_first(rest.take([&](const Task& task) { return !own(task) && !beside(task); })).run(model);
     REQUIRE(rest.empty());
   });
 }
@@ -127,7 +135,8 @@ End loads_last(Model& model) {
 bool any_beside_loads(Model& model) {
   const Plan plan = make_plan(model, StepKind::advancing);
   const auto beside = [](const Task& task) { return task.begins == Begins::beside_loads; };
-  return std::any_of(plan.forces.begin(), plan.forces.end(), beside);
+  return std::any_of(plan.forces.begin(), plan.forces.end(), beside) ||
+         std::any_of(plan.motion.begin(), plan.motion.end(), beside);
 }
 
 }  // namespace
@@ -161,6 +170,12 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
     scene.parts[1].stiffness_damping = 0;
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
     scene.loads.pop_back();
+    loaded = false;
+  }
+  SECTION("motions prescribed of loaded nodes and of others, beside multipliers") {
+    scene = driven_apart(moved_blocks());
+    for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
+    scene.parts[1].stiffness_damping = 0;
     loaded = false;
   }
   SECTION("contact by springs") {

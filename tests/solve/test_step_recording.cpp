@@ -47,6 +47,7 @@ TEST_CASE("stages of a step come one after the other") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
     scene.loads.pop_back();
   }
+  SECTION("motions prescribed of loaded nodes and of others, beside multipliers") { scene = driven_apart(scene); }
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   Model model;
   build_model(scene, model);

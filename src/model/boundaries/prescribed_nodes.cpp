@@ -10,8 +10,10 @@
 #include "case/perpendicular.hpp"
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
+#include "model/boundaries/ties.hpp"
 #include "model/build_steps.hpp"
 #include "model/checks/round_part.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/host_copy.hpp"
 #include "model/loads/load_model.hpp"
 #include "model/nodal_state.hpp"
@@ -70,9 +72,42 @@ void refuse_shared_directions(const AssembledScene& assembled) {
     }
 }
 
+/// Finds sets that have nodes in common.
+void join_alike(std::vector<PrescribedSet>& prescribed) {
+  std::map<int, int> set_of_node;
+  for (PrescribedSet& set : prescribed) {
+    set.first_alike = set.number;
+    for (int n : set.host_nodes) {
+      const int before = prescribed[set_of_node.emplace(n, set.number).first->second].first_alike;
+      const int first = std::min(before, set.first_alike), other = std::max(before, set.first_alike);
+      for (PrescribedSet& one : prescribed)
+        if (one.number <= set.number && one.first_alike == other) one.first_alike = first;
+    }
+  }
+}
+
+/// Finds what else acts on the nodes of sets.
+void find_acting(const std::vector<ContactPair>& contacts, const Ties& ties, const ExternalForces& external,
+                 std::size_t nodes, std::vector<PrescribedSet>& prescribed) {
+  std::vector<char> pushed(nodes, 0), loaded(nodes, 0);
+  for (const ContactPair& pair : contacts)
+    for (const auto* surface : {&pair.slave_nodes, &pair.master_nodes})
+      for (int n : *surface) pushed[n] = pushed[n] != 0 || !pair.has_springs() ? 1 : 0;
+  for (const LoadedRow& row : to_vector(external.loaded)) loaded[row.node] = 1;
+  for (int n : ties.masters) loaded[n] = 1;
+  std::vector<char> alike_pushed(prescribed.size(), 0);
+  for (PrescribedSet& set : prescribed)
+    for (int n : set.host_nodes) {
+      set.loaded = set.loaded || loaded[n] != 0;
+      if (pushed[n] != 0) alike_pushed[set.first_alike] = 1;
+    }
+  for (PrescribedSet& set : prescribed) set.pushed = alike_pushed[set.first_alike] != 0;
+}
+
 }  // namespace
 
-void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed) {
+void build_prescribed_motions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                              const Ties& ties, const NodalState& nodal, std::vector<PrescribedSet>& prescribed) {
   refuse_shared_directions(assembled);
   for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
@@ -90,6 +125,9 @@ void build_prescribed_motions(const AssembledScene& assembled, std::vector<Presc
     set.work = Array<double*>("work of prescribed motion", nodes.size());
     prescribed.push_back(set);
   }
+  if (prescribed.empty()) return;
+  join_alike(prescribed);
+  find_acting(contacts, ties, nodal.external, assembled.assembly.nodes.size(), prescribed);
 }
 
 RigidPlace place_at(const PrescribedSet& set, double time) {

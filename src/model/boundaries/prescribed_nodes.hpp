@@ -23,6 +23,10 @@ struct PrescribedSet {
   Array<int*> nodes;
   std::vector<int> host_nodes;  ///< ascending
   Array<double*> work;          ///< J, by node of the set
+  int first_alike =
+      0;  ///< number of the first of the sets that it has nodes in common with, or that these have; its own
+  bool loaded = false;  ///< loads, ties or non-reflecting ends act on its nodes
+  bool pushed = false;  ///< contact by multipliers does, on them or on those of a set with common nodes
 };
 
 /// Position and rotation of a set at a time: the integrals over time of velocity and angular velocity, both times their

@@ -116,7 +116,11 @@ Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind) {
 
 std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed) {
   std::vector<Task> tasks;
-  for (const PrescribedSet& set : prescribed) tasks.push_back(prescribed_task(nodal, set));
+  for (const PrescribedSet& set : prescribed) {
+    const int lane = set.pushed ? MotionLanes::contact : MotionLanes::prescribed + set.first_alike;
+    append(tasks, placed({prescribed_task(nodal, set)}, Stage::motion, lane));
+    if (!set.loaded && !set.pushed) tasks.back().begins = Begins::beside_loads;
+  }
   return tasks;
 }
 
@@ -137,14 +141,14 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
   const std::string name = "nodes that element blocks share";
   if (divided && nodal.parts.group >= 0) {
     const int plain = nodal.shared.first_special;
-    add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, 1);
+    add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, MotionLanes::early_nodes);
     tasks.back().bulk = true;
     tasks.back().begins = Begins::after_elements;
     add({name + ", that others concern", plain, all}, Stage::other_motion, 0);
     return tasks;
   }
   if (early > 0) {
-    add({name + ", beside what others wait for", 0, early}, Stage::motion, 1);
+    add({name + ", beside what others wait for", 0, early}, Stage::motion, MotionLanes::early_nodes);
     tasks.back().bulk = true;
     if (early_nodes == EarlyNodes::apart) tasks.back().begins = Begins::after_own_forces;
   }

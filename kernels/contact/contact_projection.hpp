@@ -45,6 +45,16 @@ struct SeenSegment {
   KOKKOS_INLINE_FUNCTION Vector3 corner(int k) const {
     return point({k == 1 || k == 2 ? 1.0 : -1.0, k >= 2 ? 1.0 : -1.0});
   }
+  /// m2, no more than the squared distance of the slave from any place of the segment: that from its corners' box.
+  KOKKOS_INLINE_FUNCTION double least_squared_distance() const {
+    double squared = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double reach = std::fabs(across[i]) + std::fabs(along[i]) + std::fabs(twist[i]);
+      const double outside = std::fmax(0.0, std::fabs(middle[i]) - reach);
+      squared += outside * outside;
+    }
+    return squared;
+  }
   KOKKOS_INLINE_FUNCTION Vector3 slope_xi(double eta) const { return across + eta * twist; }
   KOKKOS_INLINE_FUNCTION Vector3 slope_eta(double xi) const { return along + xi * twist; }
 };

@@ -17,7 +17,10 @@ class LateHistory {
 
   /// Launches the sums of that instant.
   /// @param step s, to the next instant
-  void begin(const Model& model, double step) { sample_ = std::make_unique<SampleUnderWay>(model, step); }
+  /// @param energies_summed whether the tasks of energy_sum_tasks() have run
+  void begin(const Model& model, double step, bool energies_summed) {
+    sample_ = std::make_unique<SampleUnderWay>(model, step, energies_summed);
+  }
 
   /// Behind the step's motion.
   void send() { sample_->send(ends_); }

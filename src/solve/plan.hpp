@@ -48,6 +48,9 @@ class StepPlans {
   /// Forces of the present instant: those of a sampled step stand until `advance`.
   void compute_forces(const Instant& instant, StepKind kind);
 
+  /// Who has computed them himself says so.
+  void forces_computed(StepKind kind) { kind_ = kind; }
+
   /// Moves the nodes to the next instant by the plan that computed the forces, and the model's clock with them.
   void advance(const Instant& instant);
 

@@ -15,7 +15,7 @@ class RowExchange;
 /// itself, so that results are bit for bit those of plain steps.
 class StepRecording {
  public:
-  /// @param plan of advancing steps; both it and the model must outlive this
+  /// @param plan of the steps: of what its tasks hold references to, all must outlive this
   /// @param space in whose order graphs are launched; null: the default one, in which all else is launched
   /// @param exchange of a rank's steps, which must outlive this, too; null: there is one rank
   StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr, RowExchange* exchange = nullptr);

@@ -53,6 +53,7 @@ enum class Stage {
   own_forces,    ///< loads, contact by springs, elements: from where the nodes are and how they move
   passed_on,     ///< forces of tied nodes to their masters; at non-reflecting ends that know no ties
   last_forces,   ///< at non-reflecting ends whose nodes are masters of ties
+  sums,          ///< of energies, in sampled steps
   motion,        ///< multipliers, prescribed motions, rotations; apart from them, nodes that nothing but loads concerns
   other_motion,  ///< of all other nodes
   tied_motion

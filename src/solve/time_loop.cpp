@@ -75,6 +75,7 @@ class TimeLoop {
                         leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space, leader_ ? &leader_->exchange() : nullptr),
+        late_forces_(model, {plans_.of(StepKind::sampled).forces, energy_sum_tasks(model)}),
         histories_may_be_late_(space == nullptr && !leader_ && recording_.most() > 0 &&
                                std::none_of(observers.begin(), observers.end(),
                                             [](const RunObserver* one) { return one->looks_at_model(); })) {
@@ -96,11 +97,13 @@ class TimeLoop {
     finish_late_history();
     recording_.finish(!late_);
     if (leader_) leader_->sample(instant_);
-    plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
+    const bool energies_summed = late_ && record_late_forces();
+    if (!energies_summed)
+      plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     wait_for_other_ranks();
     memory_.monitor.check_contact_ends();
     if (late_)
-      late_history_.begin(model_, model_.step_size);
+      late_history_.begin(model_, model_.step_size, energies_summed);
     else if (sampled_)
       monitor_and_output();
     if (ends()) return false;
@@ -133,7 +136,10 @@ class TimeLoop {
     instant_.elapsed = memory_.elapsed;
   }
 
-  void inputs_changed() { recording_.forget(); }
+  void inputs_changed() {
+    recording_.forget();
+    late_forces_.forget();
+  }
 
   /// Whether what comes next would wait for the device, or has enough before it: a graph comes behind another one, so
   /// that there is none too few while the host is with another member.
@@ -301,6 +307,15 @@ class TimeLoop {
     return recording_.advance(instant_, quiet, [this](long step) { return memory_.control.time_of(step); });
   }
 
+  /// As a graph, with the sums of energies. Nodes in single precision must be brought into double before these.
+  bool record_late_forces() {
+    if (model_.relative.active()) return false;
+    const auto time = [this](long step) { return memory_.control.time_of(step); };
+    if (late_forces_.advance(instant_, 1, time) == 0) return false;
+    plans_.forces_computed(StepKind::sampled);
+    return true;
+  }
+
   void monitor_and_output() {
     if (leader_ && fields_due_.any()) leader_->gather_fields();
     if (only_fields_) {  // energies and sums of forces are nobody's then, and take longer than the fields
@@ -379,6 +394,7 @@ class TimeLoop {
   LoopMemory memory_;
   StepPlans plans_;
   StepRecording recording_;
+  StepRecording late_forces_;  ///< of late histories' instants
   const bool histories_may_be_late_;
   LateHistory late_history_;
   RunSummary summary_;

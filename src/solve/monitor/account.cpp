@@ -97,9 +97,27 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
 
 }  // namespace
 
+namespace {
+
+void sum_nodal_energies(const Model& model, double step) {
+  sum_parts(model.node_parts, NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step});
+}
+
+}  // namespace
+
+std::vector<Task> energy_sum_tasks(const Model& model) {
+  const Task nodes{"energies of nodes", "",
+                   [&model](const Instant& instant) { sum_nodal_energies(model, instant.step); }};
+  Task elements{"energies of elements", "", [&model](const Instant&) { sum_block_energies(model, model.nodes); }};
+  elements.begins = Begins::beside_loads;
+  std::vector<Task> tasks = placed({nodes}, Stage::sums, 0);
+  append(tasks, placed({std::move(elements)}, Stage::sums, 1));
+  return tasks;
+}
+
 void sum_own_parts(const Model& model, SampledSums what, double step) {
   if (what == SampledSums::energies) {
-    sum_parts(model.node_parts, NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step});
+    sum_nodal_energies(model, step);
     sum_block_energies(model, model.nodes);
   } else {
     const MotionHistories& histories = model.motion_histories;
@@ -190,13 +208,13 @@ void queue_history_values(const Model& model, double step, HistorySample& sample
   if (model.beams) queue_beam_resultants(*model.beams, model.nodes, sample.beams, sums);
 }
 
-/// What the present instant's sample has when the sums are fetched; contacts of each pair into `pairs`.
+/// What the present instant's sample has when the sums are fetched, those of energies by parts being there; contacts of
+/// each pair into `pairs`.
 void queue_sample(const Model& model, double step, bool by_part, SampledRanks* others, bool with_histories,
                   HistorySample& sample, std::vector<ContactTotals>& pairs, SampleSums& sums) {
   sample.time = model.time;
   sample.step = model.step;
   pairs.resize(model.contacts.size());
-  sum_all_parts(model, SampledSums::energies, step, others);
   queue_energies(model, step, sample.energy, by_part, sums);
   for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
   if (with_histories) queue_history_values(model, step, sample, others, sums);
@@ -218,6 +236,7 @@ HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>
   HistorySample sample;
   std::vector<ContactTotals> pairs;
   SampleSums sums(*model.reduction_space);
+  sum_all_parts(model, SampledSums::energies, step, others);
   queue_sample(model, step, by_part != nullptr, others, with_histories, sample, pairs, sums);
   sums.fetch();
   if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
@@ -242,7 +261,9 @@ HistorySample take_sample(const Model& model, double step, std::vector<PartEnerg
   return sample_at(model, step, by_part, others, true);
 }
 
-SampleUnderWay::SampleUnderWay(const Model& model, double step) : model_(model), sums_(*model.reduction_space) {
+SampleUnderWay::SampleUnderWay(const Model& model, double step, bool energies_summed)
+    : model_(model), sums_(*model.reduction_space) {
+  if (!energies_summed) sum_own_parts(model, SampledSums::energies, step);
   queue_sample(model, step, false, nullptr, true, sample_, pairs_, sums_);
   sums_.launch();
 }

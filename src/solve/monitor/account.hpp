@@ -4,6 +4,7 @@
 #include "model/sample_sums.hpp"
 #include "solve/monitor/sampled_ranks.hpp"
 #include "solve/observer.hpp"
+#include "solve/tasks.hpp"
 
 namespace railwave {
 
@@ -28,6 +29,9 @@ ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactP
 /// Sums this process's parts of what is sampled, see PartedLists and ElementGroup::block_sums.
 void sum_own_parts(const Model& model, SampledSums what, double step);
 
+/// The same sums of energies, to come after a sampled step's forces and before its motion.
+std::vector<Task> energy_sum_tasks(const Model& model);
+
 /// The energies and contacts of a history row at the present instant: what the monitor checks.
 /// @param by_part if not null: gets the energies of each part of the assembly
 /// @param others null: this process has the whole model
@@ -44,7 +48,8 @@ HistorySample take_sample(const Model& model, double step, std::vector<PartEnerg
 /// A history sample that the device has yet to come to: the host may launch the steps after it meanwhile.
 class SampleUnderWay {
  public:
-  SampleUnderWay(const Model& model, double step);
+  /// @param energies_summed whether the tasks of energy_sum_tasks() have run
+  SampleUnderWay(const Model& model, double step, bool energies_summed = false);
 
   /// On its way to the host, behind all that has been launched.
   /// @param done is put there

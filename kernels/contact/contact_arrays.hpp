@@ -27,14 +27,20 @@ struct alignas(16) MouthCorner {
   double widest;         ///< m; from that to twice that between the lips, the corner goes back to its node
 };
 
+/// A box in single precision, m, a little larger than what it holds, so that rounding leaves nothing out.
+struct alignas(16) RoundedBox {
+  float low[3], high[3];
+  float unused[2];
+};
+
 /// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of
 /// sixteen leaves, in an order in which neighbours are near each other. They hold until the next check.
 struct SegmentBoxes {
   static constexpr int leaf_size = 8, branch_size = 16;
   Array<int*> order;           ///< of the segments
   Array<double* [6]> segment;  ///< m, the least of x, y, z, then the largest; by place in the order
-  Array<double* [6]> leaf;
-  Array<double* [6]> branch;
+  Array<RoundedBox*> leaf;
+  Array<RoundedBox*> branch;
   Array<double* [3]>
       normal;  ///< outward unit normals of the segments' middles at the last check; by place in the order
 

@@ -35,25 +35,44 @@ struct BoxSegments {
   }
 };
 
-/// Boxes around groups of so many boxes: around the leaves, then around the branches.
-struct BoxBoxes {
-  Array<const double* [6]> inner;
-  Array<double* [6]> outer;
-  int size;
+/// Of a number's size: more than single precision rounds off.
+inline constexpr double single_rounding = 2.5e-7;
+
+/// Boxes around the segments of each leaf.
+struct BoxLeaves {
+  SegmentBoxes boxes;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int l) const {
+    const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
+    RoundedBox box{};
+    for (int c = 0; c < 3; ++c) {
+      double low = 3e38, high = -3e38;
+      for (int i = first; i < last && i < boxes.segment_count(); ++i) {
+        low = std::fmin(low, boxes.segment(i, c));
+        high = std::fmax(high, boxes.segment(i, 3 + c));
+      }
+      box.low[c] = static_cast<float>(low - single_rounding * std::fabs(low));
+      box.high[c] = static_cast<float>(high + single_rounding * std::fabs(high));
+    }
+    boxes.leaf(l) = box;
+  }
+};
+
+/// Boxes around the leaves of each branch.
+struct BoxBranches {
+  SegmentBoxes boxes;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
-    double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
-    const int count = static_cast<int>(inner.extent(0)), first = b * size,
-              end = first + size < count ? first + size : count;
-    for (int i = first; i < end; ++i)
+    const int first = b * SegmentBoxes::branch_size, last = first + SegmentBoxes::branch_size;
+    RoundedBox box = boxes.leaf(first);
+    for (int l = first + 1; l < last && l < boxes.leaf_count(); ++l) {
+      const RoundedBox leaf = boxes.leaf(l);
       for (int c = 0; c < 3; ++c) {
-        low[c] = std::fmin(low[c], inner(i, c));
-        high[c] = std::fmax(high[c], inner(i, 3 + c));
+        box.low[c] = std::fmin(box.low[c], leaf.low[c]);
+        box.high[c] = std::fmax(box.high[c], leaf.high[c]);
       }
-    for (int c = 0; c < 3; ++c) {
-      outer(b, c) = low[c];
-      outer(b, 3 + c) = high[c];
     }
+    boxes.branch(b) = box;
   }
 };
 
@@ -63,22 +82,49 @@ inline void update_boxes(const ExecutionSpace& space, const ContactProjection& s
   const SegmentBoxes& boxes = surface.contact.boxes;
   Kokkos::parallel_for("segment_boxes", SpreadRange(space, 0, boxes.segment_count()),
                        BoxSegments{surface, velocity, interval, sudden});
-  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()),
-                       BoxBoxes{boxes.segment, boxes.leaf, SegmentBoxes::leaf_size});
-  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()),
-                       BoxBoxes{boxes.leaf, boxes.branch, SegmentBoxes::branch_size});
+  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()), BoxLeaves{boxes});
+  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()), BoxBranches{boxes});
 }
 
-/// Squared distance of a place from a box, m2.
-template <class Boxes>
-KOKKOS_INLINE_FUNCTION double squared_distance_from_box(const Boxes& boxes, int b, const Vector3& x) {
+/// Squared distance of a place from a segment's box, m2. No NaN makes it large.
+KOKKOS_INLINE_FUNCTION double squared_distance_from_box(const SegmentBoxes& boxes, int i, const Vector3& x) {
   double squared = 0;
   for (int c = 0; c < 3; ++c) {
-    const double outside = std::fmax(0.0, std::fmax(boxes(b, c) - x[c], x[c] - boxes(b, 3 + c)));
+    const double below = boxes.segment(i, c) - x[c], above = x[c] - boxes.segment(i, 3 + c);
+    const double beyond = below > above ? below : above, outside = beyond > 0 ? beyond : 0;
     squared += outside * outside;
   }
   return squared;
 }
+
+/// A place between numbers of single precision, in which a GPU has a box's distance with a quarter of the instructions.
+struct RoundedPlace {
+  float low[3], high[3];
+
+  KOKKOS_INLINE_FUNCTION explicit RoundedPlace(const Vector3& x) {
+    for (int c = 0; c < 3; ++c) {
+      low[c] = static_cast<float>(x[c] - single_rounding * std::fabs(x[c]));
+      high[c] = static_cast<float>(x[c] + single_rounding * std::fabs(x[c]));
+    }
+  }
+
+  /// Whether a box is surely farther away than that; of NaN never.
+  /// @param squared m2, rounded up
+  KOKKOS_INLINE_FUNCTION bool is_beyond(const RoundedBox& box, float squared) const {
+    float sum = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float below = box.low[c] - high[c], above = low[c] - box.high[c];
+      const float beyond = below > above ? below : above, outside = beyond > 0 ? beyond : 0;
+      sum += outside * outside;
+    }
+    return sum > squared;
+  }
+
+  /// A squared distance rounded up, by more than is_beyond() rounds.
+  KOKKOS_INLINE_FUNCTION static float rounded_up(double squared) {
+    return squared < 1e38 ? static_cast<float>((1 + 8 * single_rounding) * squared) : 3e38f;
+  }
+};
 
 /// Calls visit(i) for the place in the order of each segment whose box is within a distance of a place, until it says
 /// to stop.
@@ -86,16 +132,19 @@ KOKKOS_INLINE_FUNCTION double squared_distance_from_box(const Boxes& boxes, int 
 template <class Visit>
 KOKKOS_INLINE_FUNCTION void visit_boxes(const SegmentBoxes& boxes, const Vector3& x, const double& limit,
                                         const Visit& visit) {
+  const RoundedPlace place(x);
+  float rounded_limit = RoundedPlace::rounded_up(limit);
   for (int b = 0; b < boxes.branch_count(); ++b) {
-    if (squared_distance_from_box(boxes.branch, b, x) > limit) continue;
+    if (place.is_beyond(boxes.branch(b), rounded_limit)) continue;
     const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
     for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
-      if (squared_distance_from_box(boxes.leaf, l, x) > limit) continue;
+      if (place.is_beyond(boxes.leaf(l), rounded_limit)) continue;
       const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
       for (int i = first; i < last && i < boxes.segment_count(); ++i) {
-        if (squared_distance_from_box(boxes.segment, i, x) > limit) continue;
+        if (squared_distance_from_box(boxes, i, x) > limit) continue;
         if (!visit(i)) return;
       }
+      rounded_limit = RoundedPlace::rounded_up(limit);
     }
   }
 }

@@ -223,8 +223,8 @@ SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::a
   boxes.order = to_device("order of segments", order);
   boxes.segment = Array<double* [6]>("segment boxes", segments.size());
   boxes.normal = Array<double* [3]>("segment normals", segments.size());
-  boxes.leaf = Array<double* [6]>("leaf boxes", leaves);
-  boxes.branch = Array<double* [6]>("branch boxes", branches);
+  boxes.leaf = Array<RoundedBox*>("leaf boxes", leaves);
+  boxes.branch = Array<RoundedBox*>("branch boxes", branches);
   return boxes;
 }
 

@@ -24,7 +24,7 @@ struct ContactPair {
   bool boxed = false;                                     ///< the master's boxes hold until then
   long layouts = 0;                                       ///< how often the window was built
   long checks = 0;                                        ///< how often it was checked, with the host waiting
-  bool loaded = false;                                    ///< loads or connectors act on its nodes
+  bool loaded = false;                                    ///< loads, ties or non-reflecting ends act on its nodes
   bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;     ///< no other forces than the pair's on slaves reach the master's nodes
   bool reversed = false;      ///< the second half of a symmetric contact: surfaces exchanged, reported with the first

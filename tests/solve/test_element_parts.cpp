@@ -214,3 +214,34 @@ TEST_CASE("elements come in one part where they are not one launch") {
   }
   CHECK(model_in_parts(scene, "2").parts.group < 0);
 }
+
+TEST_CASE("what motions prescribed of a set wait for follows from its nodes, and from sets with some of them") {
+  scene::Scene scene = moved_blocks();
+  scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+  scene.constraints.clear();
+  scene.loads.pop_back();
+  const scene::PrescribedMotion pattern = scene.prescribed_motions[0];
+  scene.prescribed_motions.clear();
+  const auto add = [&](const std::string& target, int direction) {
+    scene::PrescribedMotion& motion = scene.prescribed_motions.emplace_back(pattern);
+    motion.name = motion.target = target;
+    motion.directions = {false, false, false};
+    motion.directions[direction] = true;
+  };
+  add("lower.x_min", 1);
+  add("lower.x_max", 1);
+  add("upper.z_max", 0);  // under load, far from the contact
+  add("lower.z_min", 2);  // far from it, but it has nodes of the first two
+  Model model;
+  build_model(scene, model);
+  const std::vector<PrescribedSet>& sets = model.prescribed;
+  REQUIRE(sets.size() == 4);
+  for (int set : {0, 1, 3}) {
+    CHECK(sets[set].first_alike == 0);
+    CHECK(sets[set].pushed);
+    CHECK_FALSE(sets[set].loaded);
+  }
+  CHECK(sets[2].first_alike == 2);
+  CHECK_FALSE(sets[2].pushed);
+  CHECK(sets[2].loaded);
+}

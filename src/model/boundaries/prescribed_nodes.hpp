@@ -23,8 +23,7 @@ struct PrescribedSet {
   Array<int*> nodes;
   std::vector<int> host_nodes;  ///< ascending
   Array<double*> work;          ///< J, by node of the set
-  int first_alike =
-      0;  ///< number of the first of the sets that it has nodes in common with, or that these have; its own
+  int first_alike = 0;  ///< number of the first set with common nodes, at once or by way of others; its own: none
   bool loaded = false;  ///< loads, ties or non-reflecting ends act on its nodes
   bool pushed = false;  ///< contact by multipliers does, on them or on those of a set with common nodes
 };

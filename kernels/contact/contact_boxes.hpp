@@ -97,7 +97,7 @@ KOKKOS_INLINE_FUNCTION double squared_distance_from_box(const SegmentBoxes& boxe
   return squared;
 }
 
-/// A place between numbers of single precision, in which a GPU has a box's distance with a quarter of the instructions.
+/// A place between numbers of single precision, in which a GPU has a box's distance with a third of the instructions.
 struct RoundedPlace {
   float low[3], high[3];
 

@@ -81,6 +81,7 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
     scene.loads.pop_back();
   }
+  SECTION("motions prescribed of loaded nodes and of others, beside multipliers") { scene = driven_apart(scene); }
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   SECTION("two contacts by multipliers") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;

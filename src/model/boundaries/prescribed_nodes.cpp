@@ -86,7 +86,7 @@ void join_alike(std::vector<PrescribedSet>& prescribed) {
   }
 }
 
-/// Finds what else acts on the nodes of sets.
+/// Finds what else acts on the nodes of sets. Loads, connectors and torques act on all nodes whose motion they read.
 void find_acting(const std::vector<ContactPair>& contacts, const Ties& ties, const ExternalForces& external,
                  std::size_t nodes, std::vector<PrescribedSet>& prescribed) {
   std::vector<char> pushed(nodes, 0), loaded(nodes, 0);

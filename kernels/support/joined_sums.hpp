@@ -74,13 +74,15 @@ class JoinedSums {
   /// Launches what has been added since the last launch.
   /// @tparam List types of terms
   /// @param space whose `left` gets the sums
+  /// @param order in which the launch comes
   template <class List>
-  void launch(ReductionSpace& space) {
+  void launch(ReductionSpace& space, const ExecutionSpace& order) {
     if (sums_.empty()) return;
     const std::size_t sums = append(sums_.data(), sums_.size() * sizeof(JoinedSum));
     const std::size_t of_team = append(of_team_.data(), of_team_.size() * sizeof(int));
-    copy_to_device(space);
-    Kokkos::parallel_for("joined_sums", reduction_teams<Sums<most_values(List{})>>(static_cast<int>(of_team_.size())),
+    copy_to_device(space, order);
+    Kokkos::parallel_for("joined_sums",
+                         reduction_teams<Sums<most_values(List{})>>(static_cast<int>(of_team_.size()), order),
                          SumJoined<List>{space.terms.data(), sums, of_team, space.left.data()});
     sums_.clear();
     of_team_.clear();
@@ -107,9 +109,9 @@ class JoinedSums {
     return place;
   }
 
-  void copy_to_device(ReductionSpace& space) {
+  void copy_to_device(ReductionSpace& space, const ExecutionSpace& order) {
     if (space.terms.extent(0) < bytes_.size()) {
-      ExecutionSpace().fence();  // what has been launched reads the terms where they are
+      order.fence();  // what has been launched reads the terms where they are
       space.terms = unset_array<unsigned char*>("terms of sums", 2 * bytes_.size());
       space.terms_given = PinnedArray<unsigned char*>(
           Kokkos::view_alloc(std::string("terms given"), Kokkos::WithoutInitializing), 2 * bytes_.size());
@@ -122,8 +124,7 @@ class JoinedSums {
     if (!there) {
       std::memcpy(given + copied_, bytes_.data() + copied_, bytes_.size() - copied_);
       const auto added = Kokkos::make_pair(copied_, bytes_.size());
-      Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(space.terms, added),
-                        Kokkos::subview(space.terms_given, added));
+      Kokkos::deep_copy(order, Kokkos::subview(space.terms, added), Kokkos::subview(space.terms_given, added));
       space.terms_there = std::max(space.terms_there, bytes_.size());
     }
     copied_ = bytes_.size();

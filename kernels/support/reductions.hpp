@@ -16,7 +16,11 @@ namespace railwave {
 /// and the few that are left on the host, so a result is bitwise the same on any number of threads.
 class Reductions {
  public:
-  explicit Reductions(ReductionSpace& space) : space_(space) {}
+  /// @param order in which its launches come
+  explicit Reductions(ReductionSpace& space, const ExecutionSpace& order = ExecutionSpace())
+      : space_(space), order_(order) {}
+
+  const ExecutionSpace& order() const { return order_; }
 
   /// Queues the sum of `term` over `count` items.
   /// @param term see sum_by_team()
@@ -41,7 +45,7 @@ class Reductions {
     const std::size_t place = reserve(static_cast<std::size_t>(blocks) * words);
     Found* const left = reinterpret_cast<Found*>(space_.left.data() + place);
     if (blocks > 0)
-      Kokkos::parallel_for("block_largest", reduction_teams<Found>(blocks),
+      Kokkos::parallel_for("block_largest", reduction_teams<Found>(blocks, order_),
                            BlockLargest<Term>{term, count, items_of_team(count), left});
     queued_.push_back({place, blocks, [use](const double* found, int parts) {
                          Found all, part;
@@ -61,14 +65,14 @@ class Reductions {
   void each(const Term& term, int count, Use use) {
     const std::size_t place = reserve(static_cast<std::size_t>(count) * Term::values);
     double* const values = space_.left.data() + place;
-    Kokkos::parallel_for("each_item", SpreadRange(0, count), EachItem<Term>{term, values});
+    Kokkos::parallel_for("each_item", SpreadRange(order_, 0, count), EachItem<Term>{term, values});
     queued_.push_back({place, count, [use](const double* found, int /*items*/) { use(found); }});
   }
 
   /// Waits for what is queued and hands it out in the order of queueing.
   void fetch() {
     copy_to_host();
-    ExecutionSpace().fence();
+    order_.fence();
     hand_out();
   }
 
@@ -76,7 +80,7 @@ class Reductions {
   /// @param fetched is put where the device has brought what is queued
   void start_fetch(Milestone& fetched) {
     copy_to_host();
-    fetched.put(ExecutionSpace());
+    fetched.put(order_);
   }
   void finish_fetch(const Milestone& fetched) {
     fetched.wait();
@@ -108,7 +112,7 @@ class Reductions {
     using Found = Sums<Term::values>;
     Found* const left = reinterpret_cast<Found*>(space_.left.data() + place);
     if (teams > 0)
-      Kokkos::parallel_for("team_sum", reduction_teams<Found>(teams),
+      Kokkos::parallel_for("team_sum", reduction_teams<Found>(teams, order_),
                            TeamSum<Term>{term, count, items_of_team(count), left});
   }
 
@@ -124,10 +128,11 @@ class Reductions {
       const std::size_t needed = static_cast<std::size_t>(blocks) * Term::values;
       if (space_.blocks.extent(0) < needed) space_.blocks = unset_array<double*>("blocks of reductions", needed);
       double* const first = space_.blocks.data();
-      Kokkos::parallel_for("sum_blocks", SpreadRange(0, blocks), BlockSum<Term>{term, count, first});
-      Kokkos::parallel_for("sum_left", SpreadRange(0, parts), BlockSum<LeftSum<Term::values>>{{first}, blocks, left});
+      Kokkos::parallel_for("sum_blocks", SpreadRange(order_, 0, blocks), BlockSum<Term>{term, count, first});
+      Kokkos::parallel_for("sum_left", SpreadRange(order_, 0, parts),
+                           BlockSum<LeftSum<Term::values>>{{first}, blocks, left});
     } else if (blocks > 0) {
-      Kokkos::parallel_for("sum_blocks", SpreadRange(0, blocks), BlockSum<Term>{term, count, left});
+      Kokkos::parallel_for("sum_blocks", SpreadRange(order_, 0, blocks), BlockSum<Term>{term, count, left});
     }
   }
 
@@ -136,8 +141,7 @@ class Reductions {
       space_.fetched = PinnedArray<double*>(Kokkos::view_alloc(std::string("fetched"), Kokkos::WithoutInitializing),
                                             space_.left.extent(0));
     const auto used = Kokkos::make_pair(std::size_t{0}, used_);
-    if (used_ > 0)
-      Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(space_.fetched, used), Kokkos::subview(space_.left, used));
+    if (used_ > 0) Kokkos::deep_copy(order_, Kokkos::subview(space_.fetched, used), Kokkos::subview(space_.left, used));
   }
 
   void hand_out() {
@@ -157,8 +161,7 @@ class Reductions {
     if (space_.left.extent(0) < used_ + words) {
       const auto more = unset_array<double*>("left of reductions", 2 * (used_ + words));
       const auto used = Kokkos::make_pair(std::size_t{0}, used_);
-      if (used_ > 0)
-        Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(more, used), Kokkos::subview(space_.left, used));
+      if (used_ > 0) Kokkos::deep_copy(order_, Kokkos::subview(more, used), Kokkos::subview(space_.left, used));
       space_.left = more;
     }
     const std::size_t place = used_;
@@ -167,6 +170,7 @@ class Reductions {
   }
 
   ReductionSpace& space_;
+  const ExecutionSpace order_;
   std::size_t used_ = 0;
   std::vector<Queued> queued_;
 };

@@ -31,9 +31,10 @@ inline int items_of_team(int count) {
 inline int teams_of(int count) { return (count + items_of_team(count) - 1) / items_of_team(count); }
 
 /// Teams of threads_of_reduction with scratch memory for a value of each thread.
+/// @param order in which they come
 template <class Value>
-ReductionTeams reduction_teams(int teams) {
-  ReductionTeams policy(ExecutionSpace(), teams, threads_of_reduction);
+ReductionTeams reduction_teams(int teams, const ExecutionSpace& order) {
+  ReductionTeams policy(order, teams, threads_of_reduction);
   policy.set_scratch_size(0, Kokkos::PerTeam(threads_of_reduction * sizeof(Value) + scratch_alignment));
   return policy;
 }

@@ -81,7 +81,7 @@ void build_member(Member& member) {
   member.progress = std::make_unique<Progress>(member.log);
 }
 
-/// What all members' elements came to in the time of the one that took longest.
+/// What all members' elements came to until the last had taken his last step.
 void report_speed(const std::vector<RunOutcome>& outcomes, std::ostream& out) {
   double element_steps = 0, seconds = 0;
   for (const RunOutcome& outcome : outcomes) {

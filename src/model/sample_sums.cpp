@@ -12,7 +12,7 @@
 namespace railwave {
 
 void SampleSums::launch() {
-  if constexpr (on_device) joined_.launch<SampleTerms>(space());
+  if constexpr (on_device) joined_.launch<SampleTerms>(space(), order());
 }
 
 }  // namespace railwave

@@ -34,7 +34,9 @@ using SampleTerms =
 /// they take ten times as long.
 class SampleSums : public Reductions {
  public:
-  explicit SampleSums(ReductionSpace& space) : Reductions(space) {}
+  /// @param order see Reductions
+  explicit SampleSums(ReductionSpace& space, const ExecutionSpace& order = ExecutionSpace())
+      : Reductions(space, order) {}
 
   /// See Reductions. Nothing that the term reads may change before launch().
   template <class Term, class Use>
@@ -65,13 +67,14 @@ class SampleSums : public Reductions {
 
 /// Sums the process's parts.
 /// @param term see sum_by_team(); it gets items' numbers among all
+/// @param order in which the launch comes
 template <class Term>
-void sum_parts(const PartedLists& lists, const Term& term) {
+void sum_parts(const PartedLists& lists, const Term& term, const ExecutionSpace& order) {
   constexpr int values = Term::values;
   const int parts = lists.whole ? lists.part_count() : static_cast<int>(lists.own_parts.extent(0));
   if (parts == 0) return;
   Kokkos::parallel_for(
-      "sum_parts", reduction_teams<Sums<values>>(parts),
+      "sum_parts", reduction_teams<Sums<values>>(parts, order),
       PartSum<Term>{term, lists.items, lists.own_parts, reinterpret_cast<Sums<values>*>(lists.part_sums.data())});
 }
 

@@ -57,6 +57,12 @@ class StepValues {
 
   void forget() { step_size_ = 0; }
 
+  /// Whether those of the steps of a graph from this one on are at hand.
+  bool has(long step) const {
+    return width_ == 0 ||
+           (step_size_ > 0 && step >= first_ && (step - first_) * width_ <= static_cast<long>(table_.extent(0)));
+  }
+
   /// Brings the values of some steps in place, in the order of a space.
   /// @param wait for the device
   /// @param value of a step, of the given number
@@ -111,13 +117,14 @@ struct StepRecording::Recordings {
   /// Phase of the cycle of subcycling, step of the frames' block, steps, whether a rare task is due at the first.
   using Key = std::tuple<long, long, long, bool>;
 
-  Recordings(Model& the_model, const Plan& plan, const ExecutionSpace* own_space, RowExchange* of_ranks)
+  Recordings(Model& the_model, const Plan& plan, LaunchOrder& of_launches, RowExchange* of_ranks)
       : model(the_model),
         exchange(of_ranks),
         elements_alone(of_ranks != nullptr && of_ranks->transport().rank() > 0),
         contacts(elements_alone ? no_contacts : model.contacts),
-        space(own_space != nullptr ? *own_space : ExecutionSpace()),
-        own(own_space != nullptr),
+        order(of_launches),
+        space(order.space()),
+        own(order.own()),
         most(most_steps(of_ranks)),
         load_values(elements_alone ? 0 : static_cast<int>(model.loads.size()), std::max(1, most)),
         places(elements_alone ? 0 : static_cast<int>(model.prescribed.size()), std::max(1, most)) {
@@ -146,7 +153,7 @@ struct StepRecording::Recordings {
 
   void run_plain(const Instant& instant) const {
     Instant here = instant;
-    if (own) here.own_space = &space;
+    here.own_space = order.own_space();
     const auto launch = [&] { run_tasks(plain, here, model.step); };
     if (exchange != nullptr)
       exchange->in_order(launch);
@@ -167,16 +174,8 @@ struct StepRecording::Recordings {
 
   /// Before launches in the default space.
   void finish(bool then_idle) {
-    if (own && launched) space.fence();
-    launched = false;
-    others_launched = true;
+    order.leave();
     idle = then_idle;
-  }
-  /// Before launches in the own one.
-  void begin() {
-    if (own && others_launched) ExecutionSpace().fence();
-    others_launched = false;
-    launched = true;
   }
 
   long frame_step() const { return model.relative.active() ? model.step - model.relative.block_step : 0; }
@@ -331,11 +330,10 @@ struct StepRecording::Recordings {
   const bool elements_alone;    ///< another rank than 0: contact, loads and prescribed motions are 0's
   const std::vector<ContactPair> no_contacts;
   const std::vector<ContactPair>& contacts;  ///< that are looked after here
+  LaunchOrder& order;
   const ExecutionSpace space;
-  const bool own;               ///< not the default one
-  bool launched = false;        ///< in that space since finish()
-  bool others_launched = true;  ///< in the default one since begin()
-  bool idle = true;             ///< the device has waited since the last graph
+  const bool own;    ///< not the default one
+  bool idle = true;  ///< the device has waited since the last graph
   const int most;
   std::vector<Task> plain, recordable, rare;
   bool crowded = false;   ///< one of them is bulk
@@ -347,8 +345,8 @@ struct StepRecording::Recordings {
   State recorded_in;  ///< of all of them
 };
 
-StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space, RowExchange* exchange)
-    : recordings_(std::make_unique<Recordings>(model, plan, space, exchange)) {}
+StepRecording::StepRecording(Model& model, const Plan& plan, LaunchOrder& order, RowExchange* exchange)
+    : recordings_(std::make_unique<Recordings>(model, plan, order, exchange)) {}
 
 StepRecording::~StepRecording() { finish(); }
 
@@ -371,7 +369,7 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   // The first steps know another time before them.
   const bool regular = instant.elapsed == instant.step && model.velocity_lag == 0.5 * instant.step;
   if (all.most == 0 || quiet < 1 || !regular) return 0;
-  all.begin();
+  all.order.enter();
   if (all.plain_due()) all.run_plain(instant);
   const long steps = all.steps_of_graph(all.idle && !all.own ? std::min(quiet, steps_of_first) : quiet);
   all.idle = false;
@@ -397,15 +395,26 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
 
 long StepRecording::graphs_ahead() const { return recordings_->own ? recordings_->graph_ends.ahead() : 0; }
 
+bool StepRecording::would_wait() const {
+  const Recordings& all = *recordings_;
+  const auto checks = [&all](const ContactPair& pair) { return all.model.step >= pair.next_check; };
+  return std::any_of(all.contacts.begin(), all.contacts.end(), checks) || !all.load_values.has(all.model.step) ||
+         !all.places.has(all.model.step);
+}
+
 #else
 
-struct StepRecording::Recordings {};
-StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*, RowExchange*) {}
+struct StepRecording::Recordings {
+  LaunchOrder& order;
+};
+StepRecording::StepRecording(Model&, const Plan&, LaunchOrder& order, RowExchange*)
+    : recordings_(std::make_unique<Recordings>(Recordings{order})) {}
 StepRecording::~StepRecording() = default;
-void StepRecording::finish(bool) {}
-void StepRecording::forget() {}
+void StepRecording::finish(bool) { recordings_->order.leave(); }
+void StepRecording::forget() { recordings_->order.leave(); }
 int StepRecording::most() const { return 0; }
 long StepRecording::graphs_ahead() const { return 0; }
+bool StepRecording::would_wait() const { return false; }
 long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
 
 #endif

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "solve/launch_order.hpp"
 #include "solve/plan.hpp"
 
 namespace railwave {
@@ -16,9 +17,9 @@ class RowExchange;
 class StepRecording {
  public:
   /// @param plan of the steps: of what its tasks hold references to, all must outlive this
-  /// @param space in whose order graphs are launched; null: the default one, in which all else is launched
+  /// @param order in which graphs are launched; must outlive this
   /// @param exchange of a rank's steps, which must outlive this, too; null: there is one rank
-  StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr, RowExchange* exchange = nullptr);
+  StepRecording(Model& model, const Plan& plan, LaunchOrder& order, RowExchange* exchange = nullptr);
   ~StepRecording();
 
   /// Steps of the largest graph; 0: all steps are plain.
@@ -32,6 +33,8 @@ class StepRecording {
 
   /// Graphs in a space of their own that the device has not come to the end of.
   long graphs_ahead() const;
+  /// Whether the host would wait for them before it launches the next one.
+  bool would_wait() const;
 
   /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
   /// @param idle the device has nothing left to do when the next graph comes

@@ -8,8 +8,9 @@
 
 #include "case/memory.hpp"
 #include "model/checks/doubts.hpp"
-#include "solve/late_history.hpp"
+#include "solve/late_sample.hpp"
 #include "solve/launch_graph.hpp"
+#include "solve/launch_order.hpp"
 #include "solve/loop_memory.hpp"
 #include "solve/monitor/account.hpp"
 #include "solve/plan.hpp"
@@ -56,10 +57,11 @@ std::string while_settling(const scene::Scene& scene, bool out_of_time) {
 /// A run from its beginning, or from a checkpoint, to its end (thesis table 2.1).
 class TimeLoop {
  public:
-  /// @param space of the launches of recorded steps, see StepRecording
+  /// @param space of the run's launches, where other runs go on meanwhile; null: the default one
   TimeLoop(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping,
            const ExecutionSpace* space = nullptr)
-      : model_(model),
+      : order_(space),
+        model_(model),
         observers_(observers),
         keeping_(keeping),
         doubts_(report_beginning()),
@@ -74,49 +76,49 @@ class TimeLoop {
                 Monitor(model, model, model, model, model.contacts, as_made_, leader_ ? &leader_->own() : nullptr,
                         leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
-        recording_(model, plans_.of(StepKind::advancing), space, leader_ ? &leader_->exchange() : nullptr),
-        late_forces_(model, {plans_.of(StepKind::sampled).forces, energy_sum_tasks(model)}),
-        histories_may_be_late_(space == nullptr && !leader_ && recording_.most() > 0 &&
-                               std::none_of(observers.begin(), observers.end(),
-                                            [](const RunObserver* one) { return one->looks_at_model(); })) {
+        recording_(model, plans_.of(StepKind::advancing), order_, leader_ ? &leader_->exchange() : nullptr),
+        sampled_forces_(model, {plans_.of(StepKind::sampled).forces, energy_sum_tasks(model)}, order_),
+        samples_may_be_late_(space == nullptr && !leader_ && recording_.most() > 0 &&
+                             std::none_of(observers.begin(), observers.end(),
+                                          [](const RunObserver* one) { return one->looks_at_model(); })) {
     if (keeping.from) take_up(*keeping.from);
     summary_.first_step = model.step;
     if (leader_) leader_->begin(keeping.from == nullptr);
   }
 
-  /// Takes a step, or the steps of a graph. @return false: the run has ended
+  /// Takes a step, or the steps of a graph. In an order of its own what a step asks of the device comes while others go
+  /// on, and the step is finished by the next call. @return false: the run has ended
   bool go_on() {
+    if (asked_) return finish_step();
     if (!begun_) since_first_step_.restart();
     begun_ = true;
     // What the monitor finds in it decides what is due.
-    if (model_.step % Monitor::steps_when_odd == 0) finish_late_history();
+    if (model_.step % Monitor::steps_when_odd == 0) finish_late_sample();
     begin_step();
     checkpoint_if_due();
     plan_step();
     if (leader_ ? take_shared_steps() : take_recorded_steps()) return true;
-    finish_late_history();
-    recording_.finish(!late_);
+    finish_late_sample();
+    if (order_.own())
+      order_.enter();
+    else
+      recording_.finish(!late_);
     if (leader_) leader_->sample(instant_);
-    const bool energies_summed = late_ && record_late_forces();
+    const bool energies_summed = (late_ || (order_.own() && samples_energies())) && record_sampled_forces();
     if (!energies_summed)
-      plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
+      plans_.compute_forces(in_order(), sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     wait_for_other_ranks();
-    memory_.monitor.check_contact_ends();
-    if (late_)
-      late_history_.begin(model_, model_.step_size, energies_summed);
-    else if (sampled_)
-      monitor_and_output();
-    if (ends()) return false;
-    if (leader_) leader_->move(instant_);
-    plans_.advance(instant_);
-    if (late_) late_history_.send();
-    end_step();
-    return true;
+    if (order_.own()) {
+      ask(energies_summed);
+      return true;
+    }
+    if (late_) late_sample_.begin(model_, model_.step_size, {output_due_, energies_summed});
+    return finish_step();
   }
 
   /// The present state, between two steps.
   RunState state() {
-    finish_late_history();
+    finish_late_sample();
     recording_.finish();
     if (leader_) leader_->gather();
     RunState state;
@@ -138,20 +140,29 @@ class TimeLoop {
 
   void inputs_changed() {
     recording_.forget();
-    late_forces_.forget();
+    sampled_forces_.forget();
   }
 
   /// Whether what comes next would wait for the device, or has enough before it: a graph comes behind another one, so
   /// that there is none too few while the host is with another member.
-  bool busy() const { return recording_.graphs_ahead() > (quiet(model_.step) ? 1 : 0); }
+  bool busy() const {
+    if (asked_) return (sample_ && answered_.ahead() > 0) || memory_.monitor.waits_for_contact_ends();
+    const bool would_wait =
+        memory_.control.may_renew(model_.step) || recording_.would_wait() || sampled_forces_.would_wait();
+    return recording_.graphs_ahead() > (would_wait ? 0 : 1);
+  }
+
+  bool has_ended() const { return ended_; }
 
   double next_history() const { return memory_.control.time_of(memory_.due.next_history()); }
 
   /// Of a run that has ended.
   RunSummary summary() {
+    recording_.finish();
     const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
     if (!trouble.empty()) summary_.warnings.push_back(trouble);
-    summary_.wall_seconds = since_first_step_.seconds();  // until all is written
+    // Until all is written, but of a run beside others, whose ends it waited for.
+    summary_.wall_seconds = order_.own() ? wall_at_end_ : since_first_step_.seconds();
     timing_.finish(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
     summary_.monitor_seconds = timing_.monitor();
     summary_.output_seconds = timing_.outputs();
@@ -212,7 +223,7 @@ class TimeLoop {
   void plan_step() {
     const double size_before = model_.step_size;
     if (memory_.control.looks_at_model()) {
-      finish_late_history();  // it has the place of sums that are wanted now
+      finish_late_sample();  // it has the place of sums that are wanted now
       recording_.finish();
     }
     memory_.control.check_elements();
@@ -225,15 +236,58 @@ class TimeLoop {
     output_due_ = memory_.due.history() || fields_due_.any() || stopping_ || summary_.fault;
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
-    const bool only_outputs = !stopping_ && !summary_.fault && !first_ && !monitor_due;
-    only_fields_ = only_outputs && fields_due_.any() && !memory_.due.history();
-    late_ =
-        only_outputs && histories_may_be_late_ && memory_.due.history() && !memory_.due.last() && !fields_due_.any();
-    if (late_) return late_history_.announce();
-    if (!sampled_) return;
+    const bool plain = !stopping_ && !summary_.fault && !first_;
+    only_fields_ = plain && !monitor_due && fields_due_.any() && !memory_.due.history();
+    late_ = sampled_ && plain && samples_may_be_late_ && !memory_.due.last() && !fields_due_.any() &&
+            !memory_.monitor.looks_at_model(model_.step);
+    if (late_) return late_sample_.announce();
+    if (!sampled_ || order_.own()) return;
     wait_for_other_ranks();
     recording_.finish();
-    (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
+    timing().begin();
+  }
+
+  WorkTiming& timing() { return output_due_ ? timing_.output_steps : timing_.monitor_steps; }
+
+  bool samples_energies() const { return sampled_ && !only_fields_; }
+
+  Instant in_order() const {
+    Instant instant = instant_;
+    instant.own_space = order_.own_space();
+    return instant;
+  }
+
+  /// Of this instant, what finish_step() needs.
+  void ask(bool energies_summed) {
+    memory_.monitor.ask_for_contact_ends(order_.space());
+    if (samples_energies()) {
+      const SampleUnderWay::What what{output_due_, energies_summed, memory_.monitor.part_energies(model_.step)};
+      sample_ = std::make_unique<SampleUnderWay>(model_, model_.step_size, what, order_.space());
+      sample_->send(answered_);
+    }
+    asked_ = true;
+  }
+
+  /// From its forces on. @return false: the run has ended
+  bool finish_step() {
+    asked_ = false;
+    if (order_.own() && sampled_) {
+      order_.leave();
+      timing().begin();
+    }
+    memory_.monitor.check_contact_ends();
+    if (sampled_ && !late_) monitor_and_output();
+    if (ends()) {
+      ended_ = true;
+      wall_at_end_ = since_first_step_.seconds();
+      return false;
+    }
+    if (leader_) leader_->move(instant_);
+    order_.enter();
+    plans_.advance(in_order());
+    if (late_) late_sample_.send();
+    end_step();
+    return true;
   }
 
   /// Whether nothing but the plan of advancing steps is due at a step to come.
@@ -255,27 +309,28 @@ class TimeLoop {
   bool take_recorded_steps() {
     if (sampled_) return false;
     long steps = recording_.most();
-    if (late_history_.under_way())
+    if (late_sample_.under_way())
       steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
     steps = record_steps(quiet_steps(steps));
     if (steps == 0) return false;
     plans_.advance_clock(instant_, steps);
     end_step();
-    finish_late_history();
+    finish_late_sample();
     return true;
   }
 
   /// Before any step that may be sampled because of it. Should it show that the run must stop, then it stops at the
   /// next step.
-  void finish_late_history() {
-    if (!late_history_.under_way()) return;
-    HistorySample sample = late_history_.finish(timing_.output_steps);
+  void finish_late_sample() {
+    if (!late_sample_.under_way()) return;
+    const bool is_history = late_sample_.is_history();
+    HistorySample sample = late_sample_.finish(is_history ? timing_.output_steps : timing_.monitor_steps);
     watch(sample);
     for (RunObserver* observer : observers_) {
-      observer->history(model_, sample);
+      if (is_history) observer->history(model_, sample);
       observer->progress(model_, sample);
     }
-    ++memory_.history_rows;
+    if (is_history) ++memory_.history_rows;
   }
 
   bool asks_for_places() const { return memory_.monitor.asks_for_places(model_.step); }
@@ -308,10 +363,10 @@ class TimeLoop {
   }
 
   /// As a graph, with the sums of energies. Nodes in single precision must be brought into double before these.
-  bool record_late_forces() {
+  bool record_sampled_forces() {
     if (model_.relative.active()) return false;
     const auto time = [this](long step) { return memory_.control.time_of(step); };
-    if (late_forces_.advance(instant_, 1, time) == 0) return false;
+    if (sampled_forces_.advance(instant_, 1, time) == 0) return false;
     plans_.forces_computed(StepKind::sampled);
     return true;
   }
@@ -326,8 +381,11 @@ class TimeLoop {
       ++memory_.field_outputs;
       return;
     }
-    HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(
-        model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
+    HistorySample sample =
+        sample_ ? sample_->finish(answered_)
+                : (output_due_ ? take_sample : sample_for_monitor)(
+                      model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
+    sample_.reset();
     if (first_) memory_.total_at_start = balance_total(sample.energy);
     if (output_due_) timing_.monitor_at_outputs.begin();
     watch(sample);
@@ -378,9 +436,10 @@ class TimeLoop {
 
   void end_step() {
     instant_.elapsed = memory_.elapsed = model_.step_size;
-    if (sampled_ && !late_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).end();
+    if (sampled_ && !late_) timing().end();
   }
 
+  LaunchOrder order_;
   const WallClock since_call_;
   WallClock since_checkpoint_, since_first_step_;
   Model& model_;
@@ -394,20 +453,24 @@ class TimeLoop {
   LoopMemory memory_;
   StepPlans plans_;
   StepRecording recording_;
-  StepRecording late_forces_;  ///< of late histories' instants
-  const bool histories_may_be_late_;
-  LateHistory late_history_;
+  StepRecording sampled_forces_;  ///< with the sums of energies
+  const bool samples_may_be_late_;
+  LateSample late_sample_;
+  Milestone answered_;
+  std::unique_ptr<SampleUnderWay> sample_;  ///< that was asked for
+  bool asked_ = false;                      ///< and the step is to be finished
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;
-  bool begun_ = false;
-  bool first_ = false;     ///< of all steps of the run, not of one that goes on from a checkpoint
-  bool stopping_ = false;  ///< after this step
+  bool begun_ = false, ended_ = false;
+  double wall_at_end_ = 0;  ///< s, since the first step
+  bool first_ = false;      ///< of all steps of the run, not of one that goes on from a checkpoint
+  bool stopping_ = false;   ///< after this step
   DueFields fields_due_;
   bool output_due_ = false;   ///< histories or fields
   bool only_fields_ = false;  ///< and nothing else of a sampled instant
   bool sampled_ = false;      ///< the instant's forces and energies are sampled
-  bool late_ = false;         ///< by a history that may come late, and by nothing else
+  bool late_ = false;         ///< and may come late
 };
 
 void request_stop() { stop_requested = 1; }
@@ -440,6 +503,19 @@ double SteppedRun::next_history() const { return loop_->next_history(); }
 
 RunSummary SteppedRun::summary() { return loop_->summary(); }
 
+namespace {
+
+/// A member's tasks come one after the other: nothing is launched in parts so that others might go on beside.
+void launch_whole(Model& model) {
+  model.parts = {};
+  model.early_shared = 0;
+}
+
+/// Steps, graphs or halves of steps that a member takes before the next one's turn.
+constexpr int most_in_turn = 8;
+
+}  // namespace
+
 std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
   std::vector<RunOutcome> outcomes(members.size());
   const std::vector<ExecutionSpace> spaces = separate_spaces(members.size());
@@ -454,22 +530,28 @@ std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members)
   };
   for (std::size_t m = 0; m < members.size(); ++m)
     unless_it_fails(m, [&] {
+      launch_whole(*members[m].model);
       loops[m] = std::make_unique<TimeLoop>(*members[m].model, members[m].observers, members[m].settled,
-                                            members[m].keeping, has_launch_graphs ? &spaces[m] : nullptr);
+                                            members[m].keeping, &spaces[m]);
     });
   for (bool any = true; any;) {
     any = false;
     for (std::size_t m = 0; m < members.size(); ++m) {
-      if (!loops[m]) continue;
+      if (!loops[m] || loops[m]->has_ended()) continue;
       any = true;
-      if (loops[m]->busy()) continue;
       unless_it_fails(m, [&] {
-        if (loops[m]->go_on()) return;
-        outcomes[m].summary = loops[m]->summary();
-        loops[m].reset();
+        for (int k = 0; k < most_in_turn && !loops[m]->busy() && loops[m]->go_on(); ++k) {
+        }
       });
     }
   }
+  // Nobody waits with his steps until another's results are written.
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (loops[m])
+      unless_it_fails(m, [&] {
+        outcomes[m].summary = loops[m]->summary();
+        loops[m].reset();
+      });
   return outcomes;
 }
 

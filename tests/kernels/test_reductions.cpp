@@ -109,11 +109,11 @@ TEST_CASE("sums by terms of different types in one launch are those of each alon
   };
   for (std::size_t c = 0; c < counts.size(); ++c) {
     add(type_number<Powers>(Terms{}), Powers{numbers[c]}, counts[c], of_powers);
-    if (c == 2) joined.launch<Terms>(space);
+    if (c == 2) joined.launch<Terms>(space, ExecutionSpace());
     add(type_number<Sign>(Terms{}), Sign{numbers[c]}, counts[c], of_signs);
   }
-  joined.launch<Terms>(space);
-  joined.launch<Terms>(space);  // nothing
+  joined.launch<Terms>(space, ExecutionSpace());
+  joined.launch<Terms>(space, ExecutionSpace());  // nothing
   REQUIRE(used <= space.left.extent(0));
   const auto left = to_host(space.left);
   for (std::size_t c = 0; c < counts.size(); ++c) {

@@ -22,7 +22,7 @@ namespace {
 std::vector<ElementMeans> means_of(const Model& model) {
   std::vector<ElementMeans> means;
   SampleSums sums(*model.reduction_space);
-  sum_element_parts(model, model.nodes);
+  sum_element_parts(model, model.nodes, ExecutionSpace());
   queue_element_means(model, means, sums);
   sums.fetch();
   return means;

@@ -299,9 +299,9 @@ void build_blocks(const AssembledScene& assembled, const AbsorbingLayers& absorb
   }
 }
 
-void renew_frames(const NodeArrays& nodes, const ElementGroup& group) {
+void renew_frames(const NodeArrays& nodes, const ElementGroup& group, const ExecutionSpace& order) {
   if (group.blocks.frame.extent(0) == 0) return;
-  Kokkos::parallel_for("renew_frames", Range(0, group.blocks.count),
+  Kokkos::parallel_for("renew_frames", Range(order, 0, group.blocks.count),
                        RenewFrames{group.blocks, nodes.position, nodes.reference});
 }
 

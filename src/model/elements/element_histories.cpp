@@ -62,7 +62,7 @@ auto& stress_tiles(const ListedElements& listed) {
 }
 
 template <class S>
-void evaluate(const ElementModel& elements, const NodeArrays& nodes) {
+void evaluate(const ElementModel& elements, const NodeArrays& nodes, const ExecutionSpace& order) {
   const ElementHistories& histories = *elements.element_histories;
   for (std::size_t g = 0; g < elements.elements.size(); ++g) {
     const ElementGroup& group = elements.elements[g];
@@ -74,22 +74,23 @@ void evaluate(const ElementModel& elements, const NodeArrays& nodes) {
         using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
         launch_teams(blocks, State::scratch_size(group.blocks),
                      State{material, group.blocks, group.blocks.hourglass_scale, nodes, stress_tiles<S>(listed),
-                           listed.energy, listed.blocks});
+                           listed.energy, listed.blocks},
+                     order);
       });
-      Kokkos::parallel_for("take_stress", Range(0, count),
+      Kokkos::parallel_for("take_stress", Range(order, 0, count),
                            TakeStress<S>{listed.places, stress_tiles<S>(listed), histories.stress});
     }
     if (!histories.wants_plastic_strain) continue;
     with_material_type(group.material, [&](auto type) {
       using Material = typename decltype(type)::type;
       if constexpr (Material::history_values > 0)
-        Kokkos::parallel_for("take_plastic_strain", Range(0, count),
+        Kokkos::parallel_for("take_plastic_strain", Range(order, 0, count),
                              TakePlasticStrain<S>{listed.places, group.material.history, Material::history_values,
                                                   Material::plastic_strain, histories.plastic_strain});
     });
   }
   if (histories.wants_strain)
-    Kokkos::parallel_for("listed_strain", Range(0, static_cast<int>(histories.corner.extent(0))),
+    Kokkos::parallel_for("listed_strain", Range(order, 0, static_cast<int>(histories.corner.extent(0))),
                          ListedStrain{nodes, histories.corner, histories.strain});
 }
 
@@ -171,12 +172,14 @@ void keep_listed_elements(ElementModel& elements) {
     histories.listed.push_back(list_of(elements.in_single, group, histories.elements));
 }
 
-void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes) {
+void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes, const ExecutionSpace& order) {
   if (!elements.element_histories) return;
   const ElementHistories& histories = *elements.element_histories;
-  with_element_precision(elements, [&](auto number) { evaluate<decltype(number)>(elements, nodes); });
-  sum_parts(histories.parts, ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain,
-                                            histories.plastic_strain});
+  with_element_precision(elements, [&](auto number) { evaluate<decltype(number)>(elements, nodes, order); });
+  sum_parts(
+      histories.parts,
+      ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain, histories.plastic_strain},
+      order);
 }
 
 void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, SampleSums& sums) {

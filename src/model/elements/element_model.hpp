@@ -84,7 +84,8 @@ struct ElementModel {
 std::vector<int> first_blocks(const std::vector<ElementGroup>& groups);  // sum_parts.cpp
 
 /// Updates the frames from which single precision measures a group's displacements to where its blocks are now.
-void renew_frames(const NodeArrays& nodes, const ElementGroup& group);
+/// @param order in which the launch comes
+void renew_frames(const NodeArrays& nodes, const ElementGroup& group, const ExecutionSpace& order = ExecutionSpace());
 
 /// Calls `work` with a number of the type in which the elements are computed.
 template <class Work>

@@ -193,12 +193,12 @@ void compute_frame_steps(const ExecutionSpace& space, NodalState& nodal, double 
       ComputeFrameSteps{relative.motion, relative.steps, frames, relative.block_time, 2 * nodal.velocity_lag, step});
 }
 
-void update_absolute_nodes(const NodalState& nodal) {
+void update_absolute_nodes(const NodalState& nodal, const ExecutionSpace& order) {
   const RelativeNodes& relative = nodal.relative;
   const double time = relative.time_of(nodal.step);
   each_frame(nodal, [&](const FrameMotion& motion, const FrameNodes& nodes, int count) {
     Kokkos::parallel_for(
-        "make_absolute", Range(0, count),
+        "make_absolute", Range(order, 0, count),
         MakeAbsolute{nodal.nodes, relative.node, frame_at(motion, time, 2 * nodal.velocity_lag), nodes});
   });
 }

@@ -64,7 +64,8 @@ void keep_relative_nodes(NodalState& nodal);
 void compute_frame_steps(const ExecutionSpace& space, NodalState& nodal, double step);
 
 /// Brings the nodes in double precision to the present instant.
-void update_absolute_nodes(const NodalState& nodal);
+/// @param order in which the launches come
+void update_absolute_nodes(const NodalState& nodal, const ExecutionSpace& order = ExecutionSpace());
 
 /// What moves a group's nodes over a step of size `step` (s).
 RelativeAdvance relative_advance(const NodalState& nodal, const RelativeBlocks& blocks, double step);

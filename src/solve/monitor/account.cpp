@@ -99,40 +99,44 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
 
 namespace {
 
-void sum_nodal_energies(const Model& model, double step) {
-  sum_parts(model.node_parts, NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step});
+void sum_nodal_energies(const Model& model, double step, const ExecutionSpace& order) {
+  sum_parts(model.node_parts, NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step}, order);
 }
 
 }  // namespace
 
 std::vector<Task> energy_sum_tasks(const Model& model) {
   const Task nodes{"energies of nodes", "",
-                   [&model](const Instant& instant) { sum_nodal_energies(model, instant.step); }};
-  Task elements{"energies of elements", "", [&model](const Instant&) { sum_block_energies(model, model.nodes); }};
+                   [&model](const Instant& instant) { sum_nodal_energies(model, instant.step, instant.space()); }};
+  Task elements{"energies of elements", "",
+                [&model](const Instant& instant) { sum_block_energies(model, model.nodes, instant.space()); }};
   elements.begins = Begins::beside_loads;
   std::vector<Task> tasks = placed({nodes}, Stage::sums, 0);
   append(tasks, placed({std::move(elements)}, Stage::sums, 1));
   return tasks;
 }
 
-void sum_own_parts(const Model& model, SampledSums what, double step) {
+void sum_own_parts(const Model& model, SampledSums what, double step, const ExecutionSpace& order) {
   if (what == SampledSums::energies) {
-    sum_nodal_energies(model, step);
-    sum_block_energies(model, model.nodes);
+    sum_nodal_energies(model, step, order);
+    sum_block_energies(model, model.nodes, order);
   } else {
     const MotionHistories& histories = model.motion_histories;
-    sum_parts(histories.parts, MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight,
-                                             histories.driven, histories.driven_change, model.velocity_lag});
-    sum_element_parts(model, model.nodes);
+    sum_parts(histories.parts,
+              MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight, histories.driven,
+                            histories.driven_change, model.velocity_lag},
+              order);
+    sum_element_parts(model, model.nodes, order);
   }
 }
 
 namespace {
 
 /// Of this process and of the others.
-void sum_all_parts(const Model& model, SampledSums what, double step, SampledRanks* others) {
+void sum_all_parts(const Model& model, SampledSums what, double step, SampledRanks* others,
+                   const ExecutionSpace& order) {
   if (others != nullptr) others->begin_sums(what, step);
-  sum_own_parts(model, what, step);
+  sum_own_parts(model, what, step, order);
   if (others != nullptr) others->take_sums(what);
 }
 
@@ -167,12 +171,12 @@ double largest_energy(const EnergyAccount& energy) {
 namespace {
 
 /// How prescribed motions move their nodes at the present instant, where histories need that.
-void find_driven_changes(const NodalState& nodal, const MotionHistories& histories) {
+void find_driven_changes(const NodalState& nodal, const MotionHistories& histories, const ExecutionSpace& order) {
   if (histories.driven.extent(0) == 0) return;
   int first = 0;
   for (const PrescribedSet& set : nodal.prescribed) {
     const int count = static_cast<int>(set.nodes.extent(0));
-    Kokkos::parallel_for("motion_of_driven_nodes", Range(0, count),
+    Kokkos::parallel_for("motion_of_driven_nodes", Range(order, 0, count),
                          PrescribedChange{prescribed_instant(nodal, set), set.nodes, histories.driven_rows, first,
                                           histories.driven_change});
     first += count;
@@ -199,8 +203,8 @@ namespace {
 void queue_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others,
                           SampleSums& sums) {
   // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
-  find_driven_changes(model, model.motion_histories);
-  sum_all_parts(model, SampledSums::histories, step, others);
+  find_driven_changes(model, model.motion_histories, sums.order());
+  sum_all_parts(model, SampledSums::histories, step, others, sums.order());
   queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
   queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, model, model.beams, sample.loads, sums);
@@ -236,7 +240,7 @@ HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>
   HistorySample sample;
   std::vector<ContactTotals> pairs;
   SampleSums sums(*model.reduction_space);
-  sum_all_parts(model, SampledSums::energies, step, others);
+  sum_all_parts(model, SampledSums::energies, step, others, sums.order());
   queue_sample(model, step, by_part != nullptr, others, with_histories, sample, pairs, sums);
   sums.fetch();
   if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
@@ -261,10 +265,10 @@ HistorySample take_sample(const Model& model, double step, std::vector<PartEnerg
   return sample_at(model, step, by_part, others, true);
 }
 
-SampleUnderWay::SampleUnderWay(const Model& model, double step, bool energies_summed)
-    : model_(model), sums_(*model.reduction_space) {
-  if (!energies_summed) sum_own_parts(model, SampledSums::energies, step);
-  queue_sample(model, step, false, nullptr, true, sample_, pairs_, sums_);
+SampleUnderWay::SampleUnderWay(const Model& model, double step, const What& what, const ExecutionSpace& order)
+    : model_(model), by_part_(what.by_part), sums_(*model.reduction_space, order) {
+  if (!what.energies_summed) sum_own_parts(model, SampledSums::energies, step, order);
+  queue_sample(model, step, by_part_ != nullptr, nullptr, what.histories, sample_, pairs_, sums_);
   sums_.launch();
 }
 
@@ -272,6 +276,7 @@ void SampleUnderWay::send(Milestone& done) { sums_.start_fetch(done); }
 
 HistorySample SampleUnderWay::finish(const Milestone& done) {
   sums_.finish_fetch(done);
+  if (by_part_ != nullptr) share_out_energies(model_.assembly, model_.elements, *by_part_);
   join_halves(model_.contacts, pairs_, sample_);
   return std::move(sample_);
 }

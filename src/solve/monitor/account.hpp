@@ -27,7 +27,8 @@ double largest_energy(const EnergyAccount& energy);
 ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactPair>& contacts, std::size_t number);
 
 /// Sums this process's parts of what is sampled, see PartedLists and ElementGroup::block_sums.
-void sum_own_parts(const Model& model, SampledSums what, double step);
+/// @param order in which the launches come
+void sum_own_parts(const Model& model, SampledSums what, double step, const ExecutionSpace& order = ExecutionSpace());
 
 /// The same sums of energies, to come after a sampled step's forces and before its motion.
 std::vector<Task> energy_sum_tasks(const Model& model);
@@ -45,11 +46,17 @@ void add_history_values(const Model& model, double step, HistorySample& sample, 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
                           SampledRanks* others = nullptr);
 
-/// A history sample that the device has yet to come to: the host may launch the steps after it meanwhile.
+/// A sample that the device has yet to come to: the host may launch something else meanwhile.
 class SampleUnderWay {
  public:
-  /// @param energies_summed whether the tasks of energy_sum_tasks() have run
-  SampleUnderWay(const Model& model, double step, bool energies_summed = false);
+  struct What {
+    bool histories = true;                       ///< also sets, loads, reactions and beams
+    bool energies_summed = false;                ///< the tasks of energy_sum_tasks() have run
+    std::vector<PartEnergy>* by_part = nullptr;  ///< gets the energies of each part; null: nobody wants them
+  };
+
+  /// @param order in which its launches come
+  SampleUnderWay(const Model& model, double step, const What& what, const ExecutionSpace& order = ExecutionSpace());
 
   /// On its way to the host, behind all that has been launched.
   /// @param done is put there
@@ -60,6 +67,7 @@ class SampleUnderWay {
 
  private:
   const Model& model_;
+  std::vector<PartEnergy>* const by_part_;
   SampleSums sums_;
   HistorySample sample_;
   std::vector<ContactTotals> pairs_;

@@ -73,7 +73,7 @@ void share_out(const std::vector<Assembly::PartRange>& parts, const ElementGroup
 }
 
 template <class S, class Hourglass>
-void sum_group(const NodeArrays& nodes, const ElementGroup& group) {
+void sum_group(const NodeArrays& nodes, const ElementGroup& group, const ExecutionSpace& order) {
   const int count = group.whole ? group.blocks.count : static_cast<int>(group.own_blocks.extent(0));
   if (count == 0) return;
   const Array<int*>& listed = group.own_blocks;
@@ -81,32 +81,34 @@ void sum_group(const NodeArrays& nodes, const ElementGroup& group) {
     using Material = std::decay_t<decltype(material)>;
     launch_blocks(group.blocks, group.whole ? nullptr : &listed,
                   ElementState<S, Material, Hourglass>{
-                      material, group.blocks, group.blocks.hourglass_scale, nodes, {}, group.block_energy});
-    Kokkos::parallel_for("block_energies", Range(0, count),
+                      material, group.blocks, group.blocks.hourglass_scale, nodes, {}, group.block_energy},
+                  order);
+    Kokkos::parallel_for("block_energies", Range(order, 0, count),
                          BlockEnergies{listed, group.block_energy, group.blocks.hourglass_energy, group.damping.energy,
                                        group.block_sums});
     if constexpr (Material::history_values > 0) {
       Kokkos::parallel_for(
-          "flow_work", Range(0, count * flow_threads),
+          "flow_work", Range(order, 0, count * flow_threads),
           FlowWork<S, Material>{listed, material, group.blocks.material, group.material.volume, group.slot_sums});
-      Kokkos::parallel_for("add_flow_work", Range(0, count), AddFlowWork{listed, group.slot_sums, group.block_sums});
+      Kokkos::parallel_for("add_flow_work", Range(order, 0, count),
+                           AddFlowWork{listed, group.slot_sums, group.block_sums});
     }
   });
 }
 
 template <class S>
-void sum_groups(const std::vector<ElementGroup>& groups, const NodeArrays& nodes) {
+void sum_groups(const std::vector<ElementGroup>& groups, const NodeArrays& nodes, const ExecutionSpace& order) {
   for (const ElementGroup& group : groups)
     if (group.hourglass == scene::HourglassType::viscous)
-      sum_group<S, ViscousHourglass>(nodes, group);
+      sum_group<S, ViscousHourglass>(nodes, group, order);
     else
-      sum_group<S, StiffnessHourglass>(nodes, group);
+      sum_group<S, StiffnessHourglass>(nodes, group, order);
 }
 
 }  // namespace
 
-void sum_block_energies(const ElementModel& model, const NodeArrays& nodes) {
-  with_element_precision(model, [&](auto number) { sum_groups<decltype(number)>(model.elements, nodes); });
+void sum_block_energies(const ElementModel& model, const NodeArrays& nodes, const ExecutionSpace& order) {
+  with_element_precision(model, [&](auto number) { sum_groups<decltype(number)>(model.elements, nodes, order); });
 }
 
 void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, SampleSums& sums) {
@@ -118,7 +120,7 @@ void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bo
       energy.damping += sum[2];
       energy.plastic += sum[3];
     });
-    if (by_part) Kokkos::deep_copy(ExecutionSpace(), group.block_sums_fetched, group.block_sums);
+    if (by_part) Kokkos::deep_copy(sums.order(), group.block_sums_fetched, group.block_sums);
   }
 }
 

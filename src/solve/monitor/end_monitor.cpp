@@ -114,13 +114,27 @@ struct EndMonitor::Crossing {
   bool slid_out;  ///< the slave has moved that way over the master
 };
 
-void EndMonitor::check(bool thorough) {
-  Reductions reductions(*nodal_.reduction_space);
-  std::vector<Largest<ContactEndForces::values>> found(pairs_.size());
+/// What is asked of the device.
+struct EndMonitor::Question {
+  Reductions reductions;
+  std::vector<Largest<ContactEndForces::values>> found;  ///< by pair
+};
+
+void EndMonitor::ask(const ExecutionSpace& order) {
+  question_ = std::make_shared<Question>(Question{Reductions(reduction_space_, order), {}});
+  auto& found = question_->found;
+  found.resize(pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p)
-    reductions.largest(ContactEndForces{contacts_[p].arrays, pairs_[p].arrays, nodal_.nodes.position},
-                       contacts_[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
-  reductions.fetch();
+    question_->reductions.largest(ContactEndForces{contacts_[p].arrays, pairs_[p].arrays, nodal_.nodes.position},
+                                  contacts_[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
+  question_->reductions.start_fetch(answered_);
+}
+
+void EndMonitor::check(bool thorough) {
+  if (!question_) ask(ExecutionSpace());
+  question_->reductions.finish_fetch(answered_);
+  const auto found = std::move(question_->found);
+  question_.reset();
   for (EndSighting& one : sightings_) one = {};
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const ContactPair& pair = contacts_[p];

@@ -42,7 +42,13 @@ class EndMonitor {
   /// Steps between checks.
   static constexpr long steps_between = 256;
 
-  /// Checks all contacts of the scene.
+  /// Asks the device for what the next check has of the present instant.
+  /// @param order in which the launches come
+  void ask(const ExecutionSpace& order);
+  /// Whether the device has yet to come to that.
+  bool waits() const { return answered_.ahead() > 0; }
+
+  /// Checks all contacts of the scene; waits for what was asked, or asks.
   /// @param thorough whether ends that were found to be no matter are checked again
   void check(bool thorough);
 
@@ -80,6 +86,7 @@ class EndMonitor {
     EndSighting now;
   };
   struct Crossing;
+  struct Question;
 
   void judge(std::size_t number);
   bool has_moved_out(std::size_t number) const;
@@ -92,6 +99,9 @@ class EndMonitor {
   const NodalState& nodal_;
   const std::vector<ContactPair>& contacts_;
   SampledRanks* const others_;
+  ReductionSpace reduction_space_;  ///< a sample of the same instant has the model's
+  Milestone answered_;
+  std::shared_ptr<Question> question_;  ///< null: nothing was asked
   std::vector<Pair> pairs_;
   std::vector<EndSighting> sightings_;
   std::vector<char> ever_closed_;  ///< by contact of the scene

@@ -18,7 +18,8 @@ namespace railwave {
 
 /// Sums elastic energy and plastic work of the process's blocks, what their hourglass control stores or dissipates, and
 /// what their damping has dissipated.
-void sum_block_energies(const ElementModel& model, const NodeArrays& nodes);
+/// @param order in which its launches come
+void sum_block_energies(const ElementModel& model, const NodeArrays& nodes, const ExecutionSpace& order);
 
 /// The same of all elements, from the sums of all blocks.
 /// @param by_part whether share_out_energies() follows

@@ -46,15 +46,25 @@ class Monitor {
   /// steps, and 48 to 96 times in a long run.
   bool due(long step) const;
 
+  /// Whether it looks at more of this step's instant than a sample.
+  bool looks_at_model(long step) const { return whole_due(step) || contact_ends_due(step); }
+
   /// From a sample that shows something odd to the check that is due for that, at the steps that are multiples of it.
   static constexpr long steps_when_odd = 32;
 
-  /// Where a sample's part energies are wanted; null: nowhere.
-  std::vector<PartEnergy>* part_energies(long step) { return arrays_ && whole_due(step) ? &by_part_ : nullptr; }
+  /// Where a sample's part energies may be wanted, as a check of contacts' ends at the same step can ask for a whole
+  /// one; null: nowhere.
+  std::vector<PartEnergy>* part_energies(long step) { return arrays_ && looks_at_model(step) ? &by_part_ : nullptr; }
 
   /// Checks the ends of contact surfaces, where it is time: every 256 steps, after the forces. That costs much less
   /// than a check of the model, and the step stays as any.
   void check_contact_ends();
+  /// Before that, where something else is launched meanwhile: asks the device for what the check has of it.
+  void ask_for_contact_ends(const ExecutionSpace& order) {
+    if (contact_ends_due(nodal_.step)) ends_->ask(order);
+  }
+  /// Whether the device has yet to come to that.
+  bool waits_for_contact_ends() const { return ends_ && ends_->waits(); }
   bool contact_ends_due(long step) const { return ends_ && step % EndMonitor::steps_between == 0; }
   /// Whether this step's check may ask where whole parts are: then no node may have been moved on before it.
   bool asks_for_places(long step) const { return contact_ends_due(step) && ends_->may_ask_for_places(); }

@@ -316,7 +316,8 @@ void follow_rank_0(Model& model, Transport& transport) {
   give_freed_memory_back();
   StepPlans plans(model, follower_plan(model, StepKind::advancing, exchange),
                   follower_plan(model, StepKind::sampled, exchange));
-  StepRecording recording(model, plans.of(StepKind::advancing), nullptr, &exchange);
+  LaunchOrder order_of_launches;
+  StepRecording recording(model, plans.of(StepKind::advancing), order_of_launches, &exchange);
   const auto advance = [&](Instant instant, long steps) {
     for (const long end = model.step + steps; model.step < end; instant.elapsed = instant.step) {
       // No task of these ranks asks for the time.

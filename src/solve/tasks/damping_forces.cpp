@@ -17,21 +17,24 @@ void element_damping(const NodalState& nodal, const ElementGroup& group, bool in
   if (!in_single)
     launch_blocks(group.blocks, listed,
                   BlockDamping<double, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
-                                                    elapsed, before, nodal.partial.in_double});
+                                                    elapsed, before, nodal.partial.in_double},
+                  instant.space());
   else if (!nodal.relative.active())
     launch_blocks(group.blocks, listed,
                   BlockDamping<float, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
-                                                   elapsed, before, nodal.partial.in_single});
+                                                   elapsed, before, nodal.partial.in_single},
+                  instant.space());
   else
     launch_blocks(group.blocks, listed,
                   BlockDamping<float, RelativeAdvance>{group.damping, group.blocks,
                                                        relative_advance(nodal, group.relative, instant.step), elapsed,
-                                                       before, nodal.partial.in_single});
+                                                       before, nodal.partial.in_single},
+                  instant.space());
 }
 
-void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, double elapsed) {
-  const double half_time = 0.5 * static_cast<double>(1L << group.level) * elapsed;
-  const Range blocks(0, group.blocks.count);
+void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant) {
+  const double half_time = 0.5 * static_cast<double>(1L << group.level) * instant.elapsed;
+  const Range blocks(instant.space(), 0, group.blocks.count);
   if (!in_single)
     Kokkos::parallel_for(
         "book_damping", blocks,

@@ -35,6 +35,6 @@ void element_damping(const NodalState& nodal, const ElementGroup& group, bool in
                      const Array<int*>* listed);
 
 /// Of a group that is not evaluated at every step, one step after its evaluation: see BookDamping.
-void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, double elapsed);
+void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant);
 
 }  // namespace railwave

@@ -31,7 +31,8 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, Block
   const int block_teams = launch.listed != nullptr ? static_cast<int>(launch.listed->extent(0)) : blocks.count;
   launch_teams(set_teams + contact_teams + block_teams, Block::scratch_size(blocks),
                Together{sets, contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}),
-                        functor, set_teams, contact_teams});
+                        functor, set_teams, contact_teams},
+               instant.space());
 }
 
 template <class S>

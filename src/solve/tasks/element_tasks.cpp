@@ -20,7 +20,7 @@ std::vector<Task> frame_tasks_of(const NodalState& nodal, const ElementGroup& gr
   const bool relative = nodal.relative.active() && kind != StepKind::settling;
   if (relative && kind == StepKind::advancing) return {};
   Task task{"reference frames of " + group.parts, "j",
-            [&nodal, &group](const Instant&) { renew_frames(nodal.nodes, group); }};
+            [&nodal, &group](const Instant& instant) { renew_frames(nodal.nodes, group, instant.space()); }};
   task.every = relative ? every : steps_between_frames;
   return {task};
 }
@@ -66,11 +66,10 @@ std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& gro
   std::vector<Task> tasks;
   const long steps = 1L << group.level;
   if (steps > 1 && first)
-    tasks.push_back({"account of damping of " + group.parts, "b",
-                     [&nodal, &group, in_single](const Instant& instant) {
-                       book_damping(nodal, group, in_single, instant.elapsed);
-                     },
-                     steps, 1});
+    tasks.push_back(
+        {"account of damping of " + group.parts, "b",
+         [&nodal, &group, in_single](const Instant& instant) { book_damping(nodal, group, in_single, instant); }, steps,
+         1});
   tasks.push_back({"damping of " + group.parts, "b",
                    [&nodal, &group, in_single, listed](const Instant& instant) {
                      element_damping(nodal, group, in_single, instant, listed);

@@ -22,7 +22,7 @@ Task subcycled_task(const NodalState& nodal, bool shared_alone) {
             update.acceleration.phase = phase;
             if (shared_alone) update.shared = nodal.shared.nodes;
             const int count = shared_alone ? nodal.subcycling.shared_end[phase] : nodal.nodes.count;
-            if (count > 0) Kokkos::parallel_for("subcycled_nodes", Range(0, count), update);
+            if (count > 0) Kokkos::parallel_for("subcycled_nodes", Range(instant.space(), 0, count), update);
           }};
 }
 
@@ -32,7 +32,8 @@ Task relative_blocks_task(const NodalState& nodal, const std::vector<ElementGrou
             for (const ElementGroup& group : groups)
               launch_blocks(group.blocks, group.whole ? nullptr : &group.own_blocks,
                             RelativeBlockUpdate{group.blocks, relative_advance(nodal, group.relative, instant.step),
-                                                nodal.partial.in_single, group.first_partial});
+                                                nodal.partial.in_single, group.first_partial},
+                            instant.space());
           }};
 }
 
@@ -68,7 +69,7 @@ Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_
 Task node_task(const NodalState& nodal) {
   return {"nodes", "f to j", [&nodal](const Instant& instant) {
             const int own = static_cast<int>(nodal.own_nodes.extent(0));
-            Kokkos::parallel_for("node_update", Range(0, own > 0 ? own : nodal.nodes.count),
+            Kokkos::parallel_for("node_update", Range(instant.space(), 0, own > 0 ? own : nodal.nodes.count),
                                  NodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step), nodal.own_nodes});
           }};
 }
@@ -92,7 +93,7 @@ Task corotating_frames_task(const AssembledScene& assembled, const std::vector<E
                 begin_relative_nodes(assembled, groups, nodal);
                 ExecutionSpace().fence();
               } else if (kind == StepKind::sampled) {
-                update_absolute_nodes(nodal);
+                update_absolute_nodes(nodal, instant.space());
               }
               compute_frame_steps(instant.space(), nodal, instant.step);
             }};

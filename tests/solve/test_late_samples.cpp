@@ -107,7 +107,7 @@ TEST_CASE("a sample that is under way is of its own instant") {
     plans.compute_forces(instant, step % 20 == 10 ? StepKind::sampled : StepKind::advancing);
     if (step % 20 == 10) {
       const std::vector<double> waited_for = numbers_of(take_sample(model, model.step_size));
-      SampleUnderWay late(model, model.step_size);
+      SampleUnderWay late(model, model.step_size, {});
       for (int more = 0; more < 3; ++more) {
         plans.advance(instant);
         if (more == 0) late.send(done);

@@ -8,24 +8,26 @@
 
 namespace railwave {
 
-/// A history for which nobody waits on a GPU: its sums come to the host while the device takes the next steps, and
+/// A sample for which nobody waits on a GPU: its sums come to the host while the device takes the next steps, and
 /// before any step that may be sampled because of it.
-class LateHistory {
+class LateSample {
  public:
   /// Before the forces of its instant are launched.
   void announce() { begins_.put(ExecutionSpace()); }
 
   /// Launches the sums of that instant.
   /// @param step s, to the next instant
-  /// @param energies_summed whether the tasks of energy_sum_tasks() have run
-  void begin(const Model& model, double step, bool energies_summed) {
-    sample_ = std::make_unique<SampleUnderWay>(model, step, energies_summed);
+  void begin(const Model& model, double step, const SampleUnderWay::What& what) {
+    sample_ = std::make_unique<SampleUnderWay>(model, step, what);
+    is_history_ = what.histories;
   }
 
   /// Behind the step's motion.
   void send() { sample_->send(ends_); }
 
   bool under_way() const { return sample_ != nullptr; }
+  /// Whether it has more than the monitor asks for.
+  bool is_history() const { return is_history_; }
 
   /// Waits for it. Nothing else of the model may have been sampled since.
   /// @param timing of the device's time for it, from its instant on
@@ -40,6 +42,7 @@ class LateHistory {
 
  private:
   Milestone begins_, ends_;
+  bool is_history_ = false;
   std::unique_ptr<SampleUnderWay> sample_;  ///< null: none is under way
 };
 

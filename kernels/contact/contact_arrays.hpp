@@ -34,19 +34,22 @@ struct alignas(16) RoundedBox {
 };
 
 /// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of
-/// sixteen leaves, in an order in which neighbours are near each other. They hold until the next check.
+/// sixteen leaves, boughs of sixteen branches, in an order in which neighbours are near each other. They hold until the
+/// next check.
 struct SegmentBoxes {
-  static constexpr int leaf_size = 8, branch_size = 16;
+  static constexpr int leaf_size = 8, branch_size = 16, bough_size = 16;
   Array<int*> order;           ///< of the segments
-  Array<double* [6]> segment;  ///< m, the least of x, y, z, then the largest; by place in the order
+  Array<RoundedBox*> segment;  ///< by place in the order
   Array<RoundedBox*> leaf;
   Array<RoundedBox*> branch;
+  Array<RoundedBox*> bough;
   Array<double* [3]>
       normal;  ///< outward unit normals of the segments' middles at the last check; by place in the order
 
   KOKKOS_INLINE_FUNCTION int segment_count() const { return static_cast<int>(segment.extent(0)); }
   KOKKOS_INLINE_FUNCTION int leaf_count() const { return static_cast<int>(leaf.extent(0)); }
   KOKKOS_INLINE_FUNCTION int branch_count() const { return static_cast<int>(branch.extent(0)); }
+  KOKKOS_INLINE_FUNCTION int bough_count() const { return static_cast<int>(bough.extent(0)); }
 };
 
 /// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes have a numbering of

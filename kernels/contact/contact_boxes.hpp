@@ -4,6 +4,9 @@
 
 namespace railwave {
 
+/// Of a number's size: more than single precision rounds off.
+inline constexpr double single_rounding = 2.5e-7;
+
 /// Box around a segment: where it is and can be until the next check, at its present speed and a quarter more, and
 /// `sudden` for what waves and loads can add; and how far beside it a node still counts as over it.
 struct BoxSegments {
@@ -25,54 +28,37 @@ struct BoxSegments {
     const Vector3 diagonal = corner[2] - corner[0], normal = cross(diagonal, corner[3] - corner[1]);
     const double margin =
         1.25 * interval * std::sqrt(fastest) + sudden + ContactProjection::outside_tolerance * norm(diagonal);
-    for (int c = 0; c < 3; ++c) {
-      boxes.segment(i, c) =
-          std::fmin(std::fmin(corner[0][c], corner[1][c]), std::fmin(corner[2][c], corner[3][c])) - margin;
-      boxes.segment(i, 3 + c) =
-          std::fmax(std::fmax(corner[0][c], corner[1][c]), std::fmax(corner[2][c], corner[3][c])) + margin;
-      boxes.normal(i, c) = normal[c] / norm(normal);
-    }
-  }
-};
-
-/// Of a number's size: more than single precision rounds off.
-inline constexpr double single_rounding = 2.5e-7;
-
-/// Boxes around the segments of each leaf.
-struct BoxLeaves {
-  SegmentBoxes boxes;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int l) const {
-    const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
     RoundedBox box{};
     for (int c = 0; c < 3; ++c) {
-      double low = 3e38, high = -3e38;
-      for (int i = first; i < last && i < boxes.segment_count(); ++i) {
-        low = std::fmin(low, boxes.segment(i, c));
-        high = std::fmax(high, boxes.segment(i, 3 + c));
-      }
+      const double low =
+          std::fmin(std::fmin(corner[0][c], corner[1][c]), std::fmin(corner[2][c], corner[3][c])) - margin;
+      const double high =
+          std::fmax(std::fmax(corner[0][c], corner[1][c]), std::fmax(corner[2][c], corner[3][c])) + margin;
       box.low[c] = static_cast<float>(low - single_rounding * std::fabs(low));
       box.high[c] = static_cast<float>(high + single_rounding * std::fabs(high));
+      boxes.normal(i, c) = normal[c] / norm(normal);
     }
-    boxes.leaf(l) = box;
+    boxes.segment(i) = box;
   }
 };
 
-/// Boxes around the leaves of each branch.
-struct BoxBranches {
-  SegmentBoxes boxes;
+/// Boxes around so many smaller ones each.
+struct BoxAround {
+  Array<const RoundedBox*> smaller;
+  int count;
+  Array<RoundedBox*> around;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
-    const int first = b * SegmentBoxes::branch_size, last = first + SegmentBoxes::branch_size;
-    RoundedBox box = boxes.leaf(first);
-    for (int l = first + 1; l < last && l < boxes.leaf_count(); ++l) {
-      const RoundedBox leaf = boxes.leaf(l);
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const int first = n * count, end = first + count, all = static_cast<int>(smaller.extent(0));
+    RoundedBox box = smaller(first);
+    for (int i = first + 1; i < end && i < all; ++i) {
+      const RoundedBox one = smaller(i);
       for (int c = 0; c < 3; ++c) {
-        box.low[c] = std::fmin(box.low[c], leaf.low[c]);
-        box.high[c] = std::fmax(box.high[c], leaf.high[c]);
+        box.low[c] = std::fmin(box.low[c], one.low[c]);
+        box.high[c] = std::fmax(box.high[c], one.high[c]);
       }
     }
-    boxes.branch(b) = box;
+    around(n) = box;
   }
 };
 
@@ -82,19 +68,12 @@ inline void update_boxes(const ExecutionSpace& space, const ContactProjection& s
   const SegmentBoxes& boxes = surface.contact.boxes;
   Kokkos::parallel_for("segment_boxes", SpreadRange(space, 0, boxes.segment_count()),
                        BoxSegments{surface, velocity, interval, sudden});
-  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()), BoxLeaves{boxes});
-  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()), BoxBranches{boxes});
-}
-
-/// Squared distance of a place from a segment's box, m2. No NaN makes it large.
-KOKKOS_INLINE_FUNCTION double squared_distance_from_box(const SegmentBoxes& boxes, int i, const Vector3& x) {
-  double squared = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double below = boxes.segment(i, c) - x[c], above = x[c] - boxes.segment(i, 3 + c);
-    const double beyond = below > above ? below : above, outside = beyond > 0 ? beyond : 0;
-    squared += outside * outside;
-  }
-  return squared;
+  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()),
+                       BoxAround{boxes.segment, SegmentBoxes::leaf_size, boxes.leaf});
+  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()),
+                       BoxAround{boxes.leaf, SegmentBoxes::branch_size, boxes.branch});
+  Kokkos::parallel_for("bough_boxes", SpreadRange(space, 0, boxes.bough_count()),
+                       BoxAround{boxes.branch, SegmentBoxes::bough_size, boxes.bough});
 }
 
 /// A place between numbers of single precision, in which a GPU has a box's distance with a third of the instructions.
@@ -134,17 +113,21 @@ KOKKOS_INLINE_FUNCTION void visit_boxes(const SegmentBoxes& boxes, const Vector3
                                         const Visit& visit) {
   const RoundedPlace place(x);
   float rounded_limit = RoundedPlace::rounded_up(limit);
-  for (int b = 0; b < boxes.branch_count(); ++b) {
-    if (place.is_beyond(boxes.branch(b), rounded_limit)) continue;
-    const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
-    for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
-      if (place.is_beyond(boxes.leaf(l), rounded_limit)) continue;
-      const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
-      for (int i = first; i < last && i < boxes.segment_count(); ++i) {
-        if (squared_distance_from_box(boxes, i, x) > limit) continue;
-        if (!visit(i)) return;
+  for (int g = 0; g < boxes.bough_count(); ++g) {
+    if (place.is_beyond(boxes.bough(g), rounded_limit)) continue;
+    const int first_branch = g * SegmentBoxes::bough_size, end_branch = first_branch + SegmentBoxes::bough_size;
+    for (int b = first_branch; b < end_branch && b < boxes.branch_count(); ++b) {
+      if (place.is_beyond(boxes.branch(b), rounded_limit)) continue;
+      const int first_leaf = b * SegmentBoxes::branch_size, end_leaf = first_leaf + SegmentBoxes::branch_size;
+      for (int l = first_leaf; l < end_leaf && l < boxes.leaf_count(); ++l) {
+        if (place.is_beyond(boxes.leaf(l), rounded_limit)) continue;
+        const int first = l * SegmentBoxes::leaf_size, end = first + SegmentBoxes::leaf_size;
+        for (int i = first; i < end && i < boxes.segment_count(); ++i) {
+          if (place.is_beyond(boxes.segment(i), rounded_limit)) continue;
+          if (!visit(i)) return;
+          rounded_limit = RoundedPlace::rounded_up(limit);
+        }
       }
-      rounded_limit = RoundedPlace::rounded_up(limit);
     }
   }
 }

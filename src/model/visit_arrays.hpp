@@ -251,6 +251,7 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::scratch, "box_segment", contact.boxes.segment);
   visit(ArrayUse::scratch, "box_leaf", contact.boxes.leaf);
   visit(ArrayUse::scratch, "box_branch", contact.boxes.branch);
+  visit(ArrayUse::scratch, "box_bough", contact.boxes.bough);
   visit(ArrayUse::scratch, "box_normal", contact.boxes.normal);
   visit(ArrayUse::trial_state, "tracked", contact.tracked);
   visit(ArrayUse::trial_state, "place", contact.place);

@@ -217,14 +217,17 @@ SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::a
   std::vector<int> order(segments.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&code](int a, int b) { return code[a] < code[b]; });
-  const std::size_t leaves = (segments.size() + SegmentBoxes::leaf_size - 1) / SegmentBoxes::leaf_size;
-  const std::size_t branches = (leaves + SegmentBoxes::branch_size - 1) / SegmentBoxes::branch_size;
+  const auto around = [](std::size_t smaller, int size) { return (smaller + size - 1) / size; };
+  const std::size_t leaves = around(segments.size(), SegmentBoxes::leaf_size),
+                    branches = around(leaves, SegmentBoxes::branch_size),
+                    boughs = around(branches, SegmentBoxes::bough_size);
   SegmentBoxes boxes;
   boxes.order = to_device("order of segments", order);
-  boxes.segment = Array<double* [6]>("segment boxes", segments.size());
+  boxes.segment = Array<RoundedBox*>("segment boxes", segments.size());
   boxes.normal = Array<double* [3]>("segment normals", segments.size());
   boxes.leaf = Array<RoundedBox*>("leaf boxes", leaves);
   boxes.branch = Array<RoundedBox*>("branch boxes", branches);
+  boxes.bough = Array<RoundedBox*>("bough boxes", boughs);
   return boxes;
 }
 

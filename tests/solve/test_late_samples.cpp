@@ -7,49 +7,13 @@
 #include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/solve/moved_blocks.hpp"
+#include "tests/solve/sample_numbers.hpp"
 #include "tests/verify/beam_scene.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
 
 namespace {
-
-void add(std::vector<double>& numbers, const Vec3& v) { numbers.insert(numbers.end(), v.begin(), v.end()); }
-
-std::vector<double> numbers_of(const HistorySample& sample) {
-  const EnergyAccount& e = sample.energy;
-  std::vector<double> numbers{sample.time,    static_cast<double>(sample.step),
-                              e.kinetic,      e.internal,
-                              e.hourglass,    e.contact,
-                              e.friction,     e.connector,
-                              e.damping,      e.plastic,
-                              e.impacts,      e.external_work,
-                              e.balance_error};
-  for (const ContactTotals& contact : sample.contacts) {
-    add(numbers, contact.normal_force);
-    add(numbers, contact.tangential_force);
-    add(numbers, contact.master_force);
-    numbers.push_back(contact.nodes_in_contact);
-    numbers.push_back(contact.nodes_slipping);
-  }
-  for (const MeanMotion& set : sample.sets) {
-    add(numbers, set.displacement);
-    add(numbers, set.velocity);
-    add(numbers, set.acceleration);
-  }
-  for (const LoadTotals& load : sample.loads) {
-    add(numbers, load.force);
-    numbers.push_back(load.work);
-  }
-  for (const ReactionTotals& reaction : sample.reactions) {
-    add(numbers, reaction.force);
-    numbers.push_back(reaction.work);
-  }
-  for (const BeamResultants& beam : sample.beams)
-    for (const auto* values : {&beam.force, &beam.moment})
-      numbers.insert(numbers.end(), values->begin(), values->end());
-  return numbers;
-}
 
 /// A history every few steps, and fields now and then.
 scene::Scene written_blocks() {

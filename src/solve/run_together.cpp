@@ -1,0 +1,68 @@
+#include <exception>
+#include <memory>
+
+#include "solve/launch_graph.hpp"
+#include "solve/loop.hpp"
+
+namespace railwave {
+namespace {
+
+/// A member's tasks come one after the other: nothing is launched in parts so that others might go on beside.
+void launch_whole(Model& model) {
+  model.parts = {};
+  model.early_shared = 0;
+}
+
+/// Steps, graphs or halves of steps that a member takes before the next one's turn.
+constexpr int most_in_turn = 8;
+
+/// s, after which the results of who has ended are surely written: before, all others would wait for that.
+constexpr double until_written = 1;
+
+}  // namespace
+
+std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
+  std::vector<RunOutcome> outcomes(members.size());
+  const std::vector<ExecutionSpace> spaces = separate_spaces(members.size());
+  std::vector<std::unique_ptr<TimeLoop>> loops(members.size());
+  const auto unless_it_fails = [&](std::size_t m, const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      outcomes[m].error = error.what();
+      loops[m].reset();
+    }
+  };
+  for (std::size_t m = 0; m < members.size(); ++m)
+    unless_it_fails(m, [&] {
+      launch_whole(*members[m].model);
+      loops[m] = std::make_unique<TimeLoop>(*members[m].model, members[m].observers, members[m].settled,
+                                            members[m].keeping, &spaces[m]);
+    });
+  const auto end = [&](std::size_t m) {
+    unless_it_fails(m, [&] {
+      outcomes[m].summary = loops[m]->summary();
+      loops[m].reset();
+    });
+  };
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      if (!loops[m]) continue;
+      if (loops[m]->has_ended()) {
+        if (loops[m]->seconds_since_end() > until_written) end(m);
+        continue;
+      }
+      any = true;
+      unless_it_fails(m, [&] {
+        for (int k = 0; k < most_in_turn && !loops[m]->busy() && loops[m]->go_on(); ++k) {
+        }
+      });
+    }
+  }
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (loops[m]) end(m);
+  return outcomes;
+}
+
+}  // namespace railwave

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case/memory.hpp"
@@ -255,8 +257,11 @@ class TimeLoop {
       order_.leave();
       timing().begin();
     }
+    std::optional<HistorySample> answer;
+    if (sample_) answer = sample_->finish(answered_);  // what a check asks besides would take its place
+    sample_.reset();
     memory_.monitor.check_contact_ends();
-    if (sampled_ && !late_) monitor_and_output();
+    if (sampled_ && !late_) monitor_and_output(std::move(answer));
     if (ends()) {
       ended_ = true;
       wall_at_end_ = since_first_step_.seconds();
@@ -352,7 +357,8 @@ class TimeLoop {
     return true;
   }
 
-  void monitor_and_output() {
+  /// @param answer to what was asked; none: nothing was
+  void monitor_and_output(std::optional<HistorySample> answer) {
     if (leader_ && fields_due_.any()) leader_->gather_fields();
     if (only_fields_) {  // energies and sums of forces are nobody's then, and take longer than the fields
       HistorySample sample;
@@ -362,11 +368,10 @@ class TimeLoop {
       ++memory_.field_outputs;
       return;
     }
-    HistorySample sample =
-        sample_ ? sample_->finish(answered_)
-                : (output_due_ ? take_sample : sample_for_monitor)(
-                      model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
-    sample_.reset();
+    if (!answer)
+      answer = (output_due_ ? take_sample : sample_for_monitor)(
+          model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
+    HistorySample& sample = *answer;
     if (first_) memory_.total_at_start = balance_total(sample.energy);
     if (output_due_) timing_.monitor_at_outputs.begin();
     watch(sample);

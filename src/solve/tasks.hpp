@@ -30,7 +30,7 @@ struct Instant {
   /// prescribed set, its place at the next instant. See solve/step_recording.hpp.
   const double* load_values = nullptr;
   const RigidPlace* places = nullptr;
-  /// In whose order tasks that are not recorded launch, and elements; null: the default one's, as all others do.
+  /// In whose order tasks launch; null: the default one's, as while they are recorded.
   const ExecutionSpace* own_space = nullptr;
 
   ExecutionSpace space() const { return own_space == nullptr ? ExecutionSpace() : *own_space; }

@@ -59,7 +59,7 @@ class TimeLoop {
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), order_, leader_ ? &leader_->exchange() : nullptr),
         sampled_forces_(model, {plans_.of(StepKind::sampled).forces, energy_sum_tasks(model)}, order_),
-        samples_may_be_late_(space == nullptr && !leader_ && recording_.most() > 0 &&
+        samples_may_be_late_(!order_.own() && !leader_ && recording_.most() > 0 &&
                              std::none_of(observers.begin(), observers.end(),
                                           [](const RunObserver* one) { return one->looks_at_model(); })) {
     if (keeping.from) take_up(*keeping.from);
@@ -144,7 +144,7 @@ class TimeLoop {
     const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
     if (!trouble.empty()) summary_.warnings.push_back(trouble);
     // Until all is written, but of a run beside others, whose ends it waited for.
-    summary_.wall_seconds = order_.own() ? wall_at_end_ : since_first_step_.seconds();
+    summary_.wall_seconds = since_first_step_.seconds() - (order_.own() ? since_end_.seconds() : 0);
     timing_.finish(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
     summary_.monitor_seconds = timing_.monitor();
     summary_.output_seconds = timing_.outputs();
@@ -264,7 +264,6 @@ class TimeLoop {
     if (sampled_ && !late_) monitor_and_output(std::move(answer));
     if (ends()) {
       ended_ = true;
-      wall_at_end_ = since_first_step_.seconds();
       since_end_.restart();
       return false;
     }
@@ -449,9 +448,8 @@ class TimeLoop {
   SampleTiming timing_;
   Instant instant_;
   bool begun_ = false, ended_ = false;
-  double wall_at_end_ = 0;  ///< s, since the first step
-  bool first_ = false;      ///< of all steps of the run, not of one that goes on from a checkpoint
-  bool stopping_ = false;   ///< after this step
+  bool first_ = false;     ///< of all steps of the run, not of one that goes on from a checkpoint
+  bool stopping_ = false;  ///< after this step
   DueFields fields_due_;
   bool output_due_ = false;   ///< histories or fields
   bool only_fields_ = false;  ///< and nothing else of a sampled instant

@@ -57,10 +57,9 @@ class StepValues {
 
   void forget() { step_size_ = 0; }
 
-  /// Whether those of the steps of a graph from this one on are at hand.
-  bool has(long step) const {
-    return width_ == 0 ||
-           (step_size_ > 0 && step >= first_ && (step - first_) * width_ <= static_cast<long>(table_.extent(0)));
+  /// Whether those of so many steps are at hand, should the step size be as it was.
+  bool has(long step, long steps) const {
+    return width_ == 0 || (step_size_ > 0 && step >= first_ && step + steps <= first_ + steps_of_table);
   }
 
   /// Brings the values of some steps in place, in the order of a space.
@@ -70,7 +69,7 @@ class StepValues {
   void take(const ExecutionSpace& space, const Wait& wait, long step, long steps, double step_size,
             const ValueAt& value) {
     if (width_ == 0) return;
-    if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_) {
+    if (!has(step, steps) || step_size != step_size_) {
       wait();
       fill(step, step_size, value);
       Kokkos::deep_copy(space, table_, host_);
@@ -123,8 +122,6 @@ struct StepRecording::Recordings {
         elements_alone(of_ranks != nullptr && of_ranks->transport().rank() > 0),
         contacts(elements_alone ? no_contacts : model.contacts),
         order(of_launches),
-        space(order.space()),
-        own(order.own()),
         most(most_steps(of_ranks)),
         load_values(elements_alone ? 0 : static_cast<int>(model.loads.size()), std::max(1, most)),
         places(elements_alone ? 0 : static_cast<int>(model.prescribed.size()), std::max(1, most)) {
@@ -164,7 +161,7 @@ struct StepRecording::Recordings {
   /// For the device. For one that waits for another rank's rows that has no end.
   void wait() const {
     if (exchange != nullptr) exchange->wait_for_rows();
-    space.fence();
+    order.space().fence();
   }
 
   /// Whether a task is due at a step that comes less often than subcycling's cycle.
@@ -221,7 +218,7 @@ struct StepRecording::Recordings {
   /// its nodes, of which they read none. In a space of its own one task comes after the other: what the others of that
   /// device launch fills it, and a graph with lanes takes the host 20 times as long to launch.
   Ends record_step(LaunchGraph& graph, Ends ready, const Instant& instant) const {
-    if (own) {
+    if (order.own()) {
       ready.tasks = graph.after(ready.tasks, 0, [this, &instant] { run_recordable(instant); });
       return {ready.tasks, ready.tasks};
     }
@@ -322,7 +319,7 @@ struct StepRecording::Recordings {
     Ends ready{graph->root(), graph->root()};
     for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(*graph, ready, now); });
     graph->finish();
-    return [this, graph] { graph->launch(space); };
+    return [this, graph] { graph->launch(order.space()); };
   }
 
   Model& model;
@@ -331,8 +328,6 @@ struct StepRecording::Recordings {
   const std::vector<ContactPair> no_contacts;
   const std::vector<ContactPair>& contacts;  ///< that are looked after here
   LaunchOrder& order;
-  const ExecutionSpace space;
-  const bool own;    ///< not the default one
   bool idle = true;  ///< the device has waited since the last graph
   const int most;
   std::vector<Task> plain, recordable, rare;
@@ -371,7 +366,7 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   if (all.most == 0 || quiet < 1 || !regular) return 0;
   all.order.enter();
   if (all.plain_due()) all.run_plain(instant);
-  const long steps = all.steps_of_graph(all.idle && !all.own ? std::min(quiet, steps_of_first) : quiet);
+  const long steps = all.steps_of_graph(all.idle && !all.order.own() ? std::min(quiet, steps_of_first) : quiet);
   all.idle = false;
   if (auto now = all.state(instant.step); now != all.recorded_in) {
     all.wait();
@@ -386,20 +381,20 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps, all.rare_due(model.step)};
   auto found = all.graphs.find(key);
   if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
-  all.load_values.take(all.space, wait, model.step, steps, instant.step, value);
-  all.places.take(all.space, wait, model.step, steps, instant.step, place);
+  all.load_values.take(all.order.space(), wait, model.step, steps, instant.step, value);
+  all.places.take(all.order.space(), wait, model.step, steps, instant.step, place);
   found->second();
-  if (all.own) all.graph_ends.put(all.space);
+  if (all.order.own()) all.graph_ends.put(all.order.space());
   return steps;
 }
 
-long StepRecording::graphs_ahead() const { return recordings_->own ? recordings_->graph_ends.ahead() : 0; }
+long StepRecording::graphs_ahead() const { return recordings_->order.own() ? recordings_->graph_ends.ahead() : 0; }
 
 bool StepRecording::would_wait() const {
   const Recordings& all = *recordings_;
   const auto checks = [&all](const ContactPair& pair) { return all.model.step >= pair.next_check; };
-  return std::any_of(all.contacts.begin(), all.contacts.end(), checks) || !all.load_values.has(all.model.step) ||
-         !all.places.has(all.model.step);
+  return std::any_of(all.contacts.begin(), all.contacts.end(), checks) ||
+         !all.load_values.has(all.model.step, all.most) || !all.places.has(all.model.step, all.most);
 }
 
 #else

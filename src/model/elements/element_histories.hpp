@@ -37,6 +37,7 @@ struct ElementHistories {
 void keep_listed_elements(ElementModel& elements);
 
 /// Evaluates the listed elements at the present instant, and sums the process's parts of each set.
+/// @param order in which the launches come
 void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes, const ExecutionSpace& order);
 
 /// Queues the means of each of these sets from the sums of their parts: one for each set that resolve_history_sets()

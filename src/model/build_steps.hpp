@@ -20,7 +20,7 @@ namespace railwave {
 struct BeamModel;
 struct Model;
 
-/// solver_support.cpp: InputError for [solver] settings that the time loop does not support
+/// contradictions.cpp: InputError for [solver] settings that the time loop does not support
 void refuse_unknown_methods(const scene::Scene& scene);
 /// model_memory.cpp: InputError when the arrays of a model of these parts can't fit where the steps are computed, on
 /// the host or a GPU
@@ -51,6 +51,8 @@ void put_at_reference(const NodeArrays& nodes);
 /// @param rank whose blocks are filled; -1: all
 void build_relative_nodes(const AssembledScene& assembled, int rank, std::vector<ElementGroup>& groups, Ties& ties,
                           NodalState& nodal);
+/// model.cpp: masses, beams, contacts with their algorithms, ties
+void build_bodies(Model& model);
 /// beams.cpp: sections, masses, rotations
 void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);
 /// loads.cpp: loads, connectors, moments on beams, node sets

@@ -20,18 +20,20 @@ namespace railwave {
 
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
+void build_bodies(Model& model) {
+  weigh_elements(model);
+  build_beams(model, model.beams);
+  const Activity activity("laying out contacts and ties");
+  build_contacts(model, model.contacts);
+  choose_algorithms(model, model.contacts);
+  build_ties(model, model.contacts, model.ties);
+}
+
 namespace {
 
 /// All that there is of a model before its elements' arrays.
 void build_surroundings(Model& model) {
-  weigh_elements(model);
-  build_beams(model, model.beams);
-  {
-    const Activity activity("laying out contacts and ties");
-    build_contacts(model, model.contacts);
-    choose_algorithms(model, model.contacts);
-    build_ties(model, model.contacts, model.ties);
-  }
+  build_bodies(model);
   build_non_reflecting(model, model.contacts, model.ends);
   const Contributions contributions = build_loads(model, model.beams, model);
   build_external_forces(model.assembly, contributions, model.contacts, model.ties, model.ends, model);

@@ -81,10 +81,6 @@ TEST_CASE("keys of springs make it springs, the halves of a symmetric contact bo
 TEST_CASE("what multipliers refuse gets springs") {
   scene::Scene scene = blocks();
   std::string reason;
-  SECTION("subcycling") {
-    scene.solver.subcycling = true;
-    reason = "subcycled nodes";
-  }
   SECTION("a non-reflecting end beside the surface") {
     scene::NonReflecting end;
     end.name = "side";

@@ -158,6 +158,7 @@ KINDS = {
         of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'
     ),
     "subcycling": dict(
+        of_contact='algorithm = "penalty"',
         more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS,
         of_upper="stiffness_damping = 2e-9",
         end=4e-4,
@@ -166,6 +167,19 @@ KINDS = {
             "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
             "divisions = [6, 5, 3]": "divisions = [6, 5, 8]",
             "0.03001]": "0.08001]",
+        },
+    ),
+    "subcycling_much_else": dict(
+        of_contact='algorithm = "multiplier"',
+        more="[solver]\nsubcycling = true\n" + BEAMS + PUSHED,
+        end=4e-4,
+        instead={
+            "divisions = [5, 5, 4]": "divisions = [14, 14, 4]",
+            "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.24]",
+            "divisions = [6, 5, 3]": "divisions = [6, 5, 24]",
+            "0.03001]": "0.24001]",
+            "[0.025, 0.025, 0.075]": "[0.025, 0.025, 0.285]",
+            "[0.03, 0.03, 0.2]": "[0.03, 0.03, 0.41]",
         },
     ),
     "mixed": dict(

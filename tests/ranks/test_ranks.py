@@ -44,10 +44,12 @@ def scene(name, share=0.15, **more):
     options = {**KINDS[name], **more}
     instead = dict(options.get("instead", {}))
     finer = {old: new for old, new in FINER.items() if old not in instead and old in case(**options)}
-    if name == "subcycling":
+    if name.startswith("subcycling"):
+        # The lower block coarse enough, and long enough where much else takes each step.
+        lower = [12, 10, 16] if name == "subcycling" else [6, 5, 40]
         finer = {}
         instead.update({"divisions = [5, 5, 4]": "divisions = [18, 18, 10]",
-                        "divisions = [6, 5, 3]": "divisions = [12, 10, 16]"})
+                        "divisions = [6, 5, 3]": f"divisions = {lower}"})
     options.update(instead={**instead, **finer}, end=share * options.get("end", 1.2e-3))
     return case(**options)
 

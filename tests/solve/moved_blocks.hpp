@@ -41,6 +41,15 @@ inline scene::Scene driven_apart(scene::Scene scene) {
   return scene;
 }
 
+/// A lower block of large elements, which take longer steps than the upper one's.
+inline scene::Scene on_coarse_block(scene::Scene scene) {
+  scene.meshes[1].box.size = {0.16, 0.16, 0.48};
+  scene.meshes[1].box.divisions = {8, 8, 24};
+  scene.parts[1].position = {-0.08, -0.08, -0.48};
+  scene.solver.subcycling = true;
+  return scene;
+}
+
 /// Tied blocks that loads press and pull, with a non-reflecting end.
 inline scene::Scene tied_and_open(const TiedBlocks& blocks) {
   scene::Scene scene = blocks.scene(4e-4);

@@ -74,8 +74,12 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
     scene.solver.precision = scene::Precision::single_precision;
   }
   SECTION("subcycling") {
-    scene.solver.subcycling = true;
-    scene.prescribed_motions.clear();
+    scene = on_coarse_block(scene);
+    SECTION("penalty") {}
+    SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
+    Model model;
+    build_model(scene, model);
+    REQUIRE(model.subcycling.levels > 1);
   }
   SECTION("multipliers on whose nodes no load acts") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;

@@ -214,7 +214,12 @@ TEST_CASE("the default takes the elements' step where something speaks against a
   CHECK(reason(scene) == StepReason::step_given);
   scene.time.step = 0;
   scene.solver.subcycling = true;
-  CHECK(reason(scene) == StepReason::subcycled);
+  CHECK(reason(scene) == StepReason::strikes);  // no element is coarse enough for a longer step of its own
+  scene::Scene coarse = scene;
+  coarse.meshes[1].box.size = {0.3, 0.3, 0.6};
+  coarse.meshes[1].box.divisions = {6, 6, 12};
+  coarse.parts[1].position = {-0.15, -0.15, -0.6};
+  CHECK(reason(coarse) == StepReason::subcycled);
   scene.solver.subcycling = false;
   scene.materials[0].yield_stress = 1e9;
   scene.materials[0].tangent_modulus = 1e9;

@@ -365,10 +365,6 @@ TEST_CASE("motions of one node are perpendicular, and methods that cannot prescr
     scene.prescribed_motions[1].directions = {false, true, true};
     CHECK(complaint().empty());
   }
-  SECTION("subcycling") {
-    scene.solver.subcycling = true;
-    CHECK_THAT(complaint(), ContainsSubstring("leave subcycling out"));
-  }
   SECTION("single precision") {
     scene.solver.precision = scene::Precision::single_precision;
     CHECK_THAT(complaint(), ContainsSubstring("set precision to \"mixed\" or \"double\""));

@@ -79,10 +79,6 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::penalty;
     CHECK(complaint_of_building(scene).empty());
   }
-  SECTION("subcycled") {
-    scene.solver.subcycling = true;
-    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("subcycling = true with [ties.grown]"));
-  }
 }
 
 TEST_CASE("a scene without ties computes none") {

@@ -31,14 +31,12 @@ bool has_nodes_of(const AssembledScene& assembled, const ContactPair& pair, cons
          std::any_of(pair.master_nodes.begin(), pair.master_nodes.end(), is_own);
 }
 
-/// Why a contact has springs; empty: it has multipliers. What build_ties(), build_non_reflecting(),
-/// refuse_unknown_methods() and refuse_contradictions() refuse of multipliers is a reason, and so is what would throw
-/// bodies apart.
+/// Why a contact has springs; empty: it has multipliers. What build_ties(), build_non_reflecting() and
+/// refuse_contradictions() refuse of multipliers is a reason, and so is what would throw bodies apart.
 std::string why_springs(const AssembledScene& assembled, const ContactPair& pair,
                         const std::vector<InitialOverlap>& overlaps) {
   const scene::Scene& scene = assembled.scene;
   if (const std::string key = key_of_springs(*pair.contact); !key.empty()) return key + " is of springs";
-  if (scene.solver.subcycling) return "subcycled nodes have steps of their own";
   for (const scene::Tie& tie : scene.ties)
     if (has_nodes_of(assembled, pair, tie, "slave", tie.slave))
       return fmt::format("nodes of its surfaces are slaves of [ties.{}]", tie.name);

@@ -222,6 +222,23 @@ void refuse_stiff_multipliers(const AssembledScene& assembled, const std::vector
 
 }  // namespace
 
+void refuse_unknown_methods(const scene::Scene& scene) {
+  const scene::Solver& solver = scene.solver;
+  const auto refuse_wish = [&](const std::string& wish, const std::string& mend) {
+    throw InputError(
+        fmt::format("{}: [solver] {}: this version of railwave has no time loop for it; {}", scene.path, wish, mend));
+  };
+  const bool single = solver.precision == scene::Precision::single_precision;
+  if (single && solver.subcycling)
+    refuse_wish("precision = \"float\" with subcycling = true",
+                "leave one of the two out, or set precision to \"mixed\"");
+  if (single && !scene.prescribed_motions.empty())
+    refuse_wish("precision = \"float\" with a [prescribed_motion]", "set precision to \"mixed\" or \"double\"");
+  if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
+    refuse_wish("subcycling = true with step_estimate = \"global\"",
+                "leave one of the two out: a level's steps rest on its own elements");
+}
+
 void refuse_contradictions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
   refuse_moved_constraints(assembled);
   refuse_double_pairs(assembled);

@@ -35,7 +35,8 @@ class OwnSteps {
   OwnSteps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
            const std::vector<ConnectorCell>& cells, double connector)
       : assembled_(assembled), at_node_(assembled.assembly.nodes.size(), 0) {
-    for (const ContactPair& pair : contacts) add_contact(pair);
+    for (const ContactPair& pair : contacts)
+      if (pair.has_springs()) add_contact(pair);
     if (connector > 0 && std::isfinite(connector))
       for (int n : pulled_nodes(cells)) at_node_[n] += 4 / (connector * connector);
   }
@@ -83,6 +84,27 @@ void level_contacts(const Assembly& assembly, const std::vector<ContactPair>& co
   }
 }
 
+/// What asks for all forces on its nodes at every step, or moves them itself, has elements of the finest level alone:
+/// multipliers, which look one step ahead; ties, which pass forces on; prescribed motions; and beams, whose stiffness
+/// no element's own step knows.
+std::vector<char> nodes_of_every_step(const Model& model) {
+  std::vector<char> of_every_step(model.assembly.nodes.size(), 0);
+  const auto mark = [&](const std::vector<int>& nodes) {
+    for (int n : nodes) of_every_step[n] = 1;
+  };
+  for (const ContactPair& pair : model.contacts) {
+    if (pair.has_springs()) continue;
+    mark(pair.slave_nodes);
+    mark(pair.master_nodes);
+  }
+  mark(model.ties.masters);
+  for (const TiedPlace& tied : model.ties.places) of_every_step[tied.slave] = 1;
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
+    mark(find_node_set(model.scene, model.assembly, motion, "target", motion.target));
+  for (const Assembly::BeamChain& chain : model.assembly.beam_chains) mark(chain.nodes);
+  return of_every_step;
+}
+
 /// Takes the buffer's layers from the elements `in` a level: those nearer than `buffer` to what is not in it.
 void take_buffer(const Assembly& assembly, const std::vector<double>& steps, double level_step, std::vector<char>& in) {
   std::vector<int> distance(assembly.nodes.size(), buffer);
@@ -112,8 +134,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   model.scene = scene;
   model.assembly = assembly;
   model.absorbing = absorbing_layers(scene, assembly);
-  weigh_elements(model);
-  build_contacts(model, model.contacts);
+  build_bodies(model);
   model.connectors.cells = connector_cells(scene, assembly, model.mass);
   build_stable_step(model);
   plan_steps(scene, 1, model);
@@ -130,6 +151,10 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
                         most_levels - 1);
   }
   level_contacts(assembly, model.contacts, fit);
+  const std::vector<char> of_every_step = nodes_of_every_step(model);
+  for (std::size_t e = 0; e < fit.size(); ++e)
+    for (int n : assembly.elements[e])
+      if (of_every_step[n] != 0) fit[e] = 0;
 
   std::vector<int> levels(steps.size(), 0);
   std::vector<char> in(steps.size(), 1);

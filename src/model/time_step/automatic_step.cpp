@@ -57,7 +57,8 @@ double asked_gain(const scene::Scene& scene, const StableStep& stable) {
 Reason obstacle(const Model& model) {
   const scene::Scene& scene = model.scene;
   if (scene.time.step > 0 && scene.time.step <= model.stable_step.by_elements) return Reason::step_given;
-  if (scene.solver.subcycling) return Reason::subcycled;
+  const auto& levels = model.order.level;
+  if (std::any_of(levels.begin(), levels.end(), [](int level) { return level > 0; })) return Reason::subcycled;
   if (!std::isfinite(model.stable_step.by_elements) || model.nodes.count == 0 || model.assembly.elements.empty())
     return Reason::no_elements;
   if (flows(model)) return Reason::flows;

@@ -48,13 +48,3 @@ TEST_CASE("subcycling with a step that rests on the whole scene is refused") {
   scene.solver.step_estimate = scene::StepEstimate::global;
   refused(scene, "subcycling = true", "global");
 }
-
-TEST_CASE("subcycling with contact by multipliers is refused") {
-  scene::Scene scene = block();
-  scene.solver.subcycling = true;
-  scene::Contact contact;
-  contact.name = "touch";
-  contact.algorithm = scene::ContactAlgorithm::multiplier;
-  scene.contacts.push_back(contact);
-  refused(scene, "subcycling = true", "multiplier");
-}

@@ -90,7 +90,7 @@ void make_wall(const Wall& wall, Number count, const Vec3& middle, double diagon
   contact.slave = {wall.set, 4};
   if (wall.set == 0) {
     const Number all = next_number(deck.part_sets);
-    deck.part_sets[all] = {wall.source, "all parts", parts, {}, false};
+    deck.part_sets[all] = {wall.source, "all parts", parts, {}, false, {}};
     contact.slave = {all, 2};
   }
   deck.contacts.push_back(contact);

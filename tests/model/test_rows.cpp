@@ -157,7 +157,7 @@ TEST_CASE("the edges of a group are those of its elements, turned like one anoth
   const std::set<std::pair<int, int>> joined{{0, 1}, {1, 2}, {2, 3}, {0, 3}, {4, 5}, {5, 6},
                                              {6, 7}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   int checked = 0;
-  each_block(assembly, rows, [&](const std::vector<CornerNodes>& elements, int nodes) {
+  each_block(assembly, rows, [&](const std::vector<CornerNodes>& elements, int /*nodes*/) {
     const EdgeGroups groups = edge_groups(elements);
     for (std::size_t g = 0; g < groups.of_group.size(); ++g)
       for (int lane = 0; lane < elements_of_group; ++lane) {

@@ -10,6 +10,7 @@
 #include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
+#include "model/lent_array.hpp"
 #include "model/nodal_state.hpp"
 
 namespace railwave {
@@ -39,10 +40,14 @@ struct FetchNodes {
   }
 };
 
-/// Of the wanted elements those that are the group's: their places among the wanted, and their slots in the group's
-/// tiles.
-Array<int* [2]> wanted_slots(const ElementGroup& group, const std::vector<int>& elements) {
-  std::vector<std::array<int, 2>> slots;
+/// An element's place among the wanted, and its slot in its group's tiles.
+struct WantedSlot {
+  int place, slot;
+};
+
+/// Of the wanted elements those that are the group's.
+std::vector<WantedSlot> wanted_slots(const ElementGroup& group, const std::vector<int>& elements) {
+  std::vector<WantedSlot> slots;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
     if (after == group.first_element.begin()) continue;
@@ -50,22 +55,22 @@ Array<int* [2]> wanted_slots(const ElementGroup& group, const std::vector<int>& 
               place = elements[i] - group.first_element[p];
     if (place < group.element_count[p]) slots.push_back({static_cast<int>(i), p * elements_of_block + place});
   }
-  return to_device("wanted slots", slots);
+  return slots;
 }
 
 /// Takes `components` of a group's tiles of `stored` values, from value `first`, to where they are wanted. S: the
 /// elements' precision, by which the tiles are laid out.
 template <class S, class Value>
 struct FetchElements {
-  Array<int* [2]> slots;
+  Array<const WantedSlot*> slots;
   Array<Value*> tiles;
   int stored, first, components;
   Array<double*> result;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     for (int c = 0; c < components; ++c)
-      result(static_cast<std::size_t>(components) * slots(i, 0) + c) =
-          tiles(tiled_slot<S>(slots(i, 1), stored, first + c));
+      result(static_cast<std::size_t>(components) * slots(i).place + c) =
+          tiles(tiled_slot<S>(slots(i).slot, stored, first + c));
   }
 };
 
@@ -76,34 +81,34 @@ void fetch_elements(const FetchElements<S, Value>& fetch) {
 
 template <class S>
 HostField stress_in(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted) {
-  const auto result = unset_array<double*>("stress field", 6 * wanted.size());
-  Kokkos::deep_copy(result, 0.0);
+  const LentArray<double*> result(6 * wanted.size());
+  Kokkos::deep_copy(*result, 0.0);
   for (const ElementGroup& group : elements.elements) {
-    const auto slots = wanted_slots(group, wanted);
-    if (slots.extent(0) == 0) continue;
-    const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.blocks.count) * elements_of_block);
-    const auto unused = unset_array<double* [2]>("block energy", group.blocks.count);
+    const std::vector<WantedSlot> slots = wanted_slots(group, wanted);
+    if (slots.empty()) continue;
+    const LentArray<S*> stress(6 * static_cast<std::size_t>(group.blocks.count) * elements_of_block);
+    const LentArray<double* [2]> unused(group.blocks.count);
     with_material(group, [&](const auto& material) {
       using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
-      launch_blocks(group.blocks, State{material, group.blocks, group.blocks.hourglass_scale, nodes, stress, unused});
+      launch_blocks(group.blocks, State{material, group.blocks, group.blocks.hourglass_scale, nodes, *stress, *unused});
     });
-    fetch_elements(FetchElements<S, S>{slots, stress, 6, 0, 6, result});
+    fetch_elements(FetchElements<S, S>{*lent_copy(slots), *stress, 6, 0, 6, *result});
   }
-  return {6, to_vector(result)};
+  return {6, to_vector(*result)};
 }
 
 template <class S>
 HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>& wanted) {
-  const auto result = unset_array<double*>("plastic strain field", wanted.size());
-  Kokkos::deep_copy(result, 0.0);
+  const LentArray<double*> result(wanted.size());
+  Kokkos::deep_copy(*result, 0.0);
   for (const ElementGroup& group : elements.elements)
     with_material_type(group.material, [&](auto type) {
       using Material = typename decltype(type)::type;
       if constexpr (Material::history_values > 0)
-        fetch_elements(FetchElements<S, double>{wanted_slots(group, wanted), group.material.history,
-                                                Material::history_values, Material::plastic_strain, 1, result});
+        fetch_elements(FetchElements<S, double>{*lent_copy(wanted_slots(group, wanted)), group.material.history,
+                                                Material::history_values, Material::plastic_strain, 1, *result});
     });
-  return {1, to_vector(result)};
+  return {1, to_vector(*result)};
 }
 
 /// Entries of a list of nodes that a prescribed motion moves, with the nodes.
@@ -140,17 +145,14 @@ void follow_prescribed(const NodalState& nodal, const std::vector<NodeField>& fi
 std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<NodeField>& fields,
                                     const std::vector<int>& nodes) {
   const int count = static_cast<int>(nodes.size());
-  FetchNodes fetch{nodal.subcycled_acceleration(),
-                   nodal.velocity_lag,
-                   {},
-                   static_cast<int>(fields.size()),
-                   count,
-                   to_device("wanted", nodes),
-                   unset_array<double*>("node fields", 3 * fields.size() * nodes.size())};
+  const LentArray<int*> wanted = lent_copy(nodes);
+  const LentArray<double*> result(3 * fields.size() * nodes.size());
+  FetchNodes fetch{
+      nodal.subcycled_acceleration(), nodal.velocity_lag, {}, static_cast<int>(fields.size()), count, *wanted, *result};
   std::copy(fields.begin(), fields.end(), fetch.field);
   Kokkos::parallel_for("fetch_nodes", Range(0, count), fetch);
-  follow_prescribed(nodal, fields, nodes, fetch.result);
-  return to_vector(fetch.result);
+  follow_prescribed(nodal, fields, nodes, *result);
+  return to_vector(*result);
 }
 
 /// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.

@@ -12,6 +12,7 @@
 #include "model/contact/contact_pair.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
+#include "model/lent_array.hpp"
 #include "model/nodal_state.hpp"
 #include "model/sets/point_search.hpp"
 
@@ -47,15 +48,17 @@ struct GatherEntries {
   }
 };
 
-/// Its entries, in any order. Counted first, for large arrays take a device long to make.
+/// Its entries, in any order. Counted first, as few of many are its own.
 template <class List>
 std::vector<typename List::Entry> gathered(const char* name, int count, const List& list) {
   int found = 0;
   Kokkos::parallel_reduce(name, Range(0, count), CountEntries<List>{list}, found);
   if (found == 0) return {};
-  const auto entries = unset_array<typename List::Entry*>(name, found);
-  Kokkos::parallel_for(name, Range(0, count), GatherEntries<List>{list, Array<int*>("next entry", 1), entries});
-  return to_vector<typename List::Entry>(entries);
+  const LentArray<typename List::Entry*> entries(found);
+  const LentArray<int*> next(1);
+  Kokkos::deep_copy(*next, 0);
+  Kokkos::parallel_for(name, Range(0, count), GatherEntries<List>{list, *next, *entries});
+  return to_vector<typename List::Entry>(*entries);
 }
 
 /// The slave nodes that touch.
@@ -244,15 +247,15 @@ struct PickGaps {
 
 /// Of the slave's wanted nodes.
 std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pair, const std::vector<int>& places) {
-  const auto gap = unset_array<double*>("present gap", pair.arrays.slave_count);
-  Kokkos::deep_copy(gap, pair.arrays.gap);
+  const LentArray<double*> gap(pair.arrays.slave_count);
+  Kokkos::deep_copy(*gap, pair.arrays.gap);
   apart_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
-                     PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, gap});
-  if (places.size() == pair.slave_nodes.size()) return to_vector(gap);
-  const auto result = unset_array<double*>("wanted gaps", places.size());
+                     PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, *gap});
+  if (places.size() == pair.slave_nodes.size()) return to_vector(*gap);
+  const LentArray<double*> result(places.size());
   Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),
-                       PickGaps{gap, to_device("wanted", places), result});
-  return to_vector(result);
+                       PickGaps{*gap, *lent_copy(places), *result});
+  return to_vector(*result);
 }
 
 /// Shares of the master's nodes in a force on the slaves, where segments are curved.

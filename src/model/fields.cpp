@@ -82,7 +82,7 @@ void fetch_elements(const FetchElements<S, Value>& fetch) {
 template <class S>
 HostField stress_in(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted) {
   const LentArray<double*> result(6 * wanted.size());
-  Kokkos::deep_copy(*result, 0.0);
+  Kokkos::deep_copy(ExecutionSpace(), *result, 0.0);
   for (const ElementGroup& group : elements.elements) {
     const std::vector<WantedSlot> slots = wanted_slots(group, wanted);
     if (slots.empty()) continue;
@@ -94,13 +94,13 @@ HostField stress_in(const ElementModel& elements, const NodeArrays& nodes, const
     });
     fetch_elements(FetchElements<S, S>{*lent_copy(slots), *stress, 6, 0, 6, *result});
   }
-  return {6, to_vector(*result)};
+  return {6, fetched(result)};
 }
 
 template <class S>
 HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>& wanted) {
   const LentArray<double*> result(wanted.size());
-  Kokkos::deep_copy(*result, 0.0);
+  Kokkos::deep_copy(ExecutionSpace(), *result, 0.0);
   for (const ElementGroup& group : elements.elements)
     with_material_type(group.material, [&](auto type) {
       using Material = typename decltype(type)::type;
@@ -108,7 +108,7 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
         fetch_elements(FetchElements<S, double>{*lent_copy(wanted_slots(group, wanted)), group.material.history,
                                                 Material::history_values, Material::plastic_strain, 1, *result});
     });
-  return {1, to_vector(*result)};
+  return {1, fetched(result)};
 }
 
 /// Entries of a list of nodes that a prescribed motion moves, with the nodes.
@@ -152,7 +152,7 @@ std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<N
   std::copy(fields.begin(), fields.end(), fetch.field);
   Kokkos::parallel_for("fetch_nodes", Range(0, count), fetch);
   follow_prescribed(nodal, fields, nodes, *result);
-  return to_vector(*result);
+  return fetched(result);
 }
 
 /// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.

@@ -56,9 +56,9 @@ std::vector<typename List::Entry> gathered(const char* name, int count, const Li
   if (found == 0) return {};
   const LentArray<typename List::Entry*> entries(found);
   const LentArray<int*> next(1);
-  Kokkos::deep_copy(*next, 0);
+  Kokkos::deep_copy(ExecutionSpace(), *next, 0);
   Kokkos::parallel_for(name, Range(0, count), GatherEntries<List>{list, *next, *entries});
-  return to_vector<typename List::Entry>(*entries);
+  return fetched(entries);
 }
 
 /// The slave nodes that touch.
@@ -248,14 +248,14 @@ struct PickGaps {
 /// Of the slave's wanted nodes.
 std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pair, const std::vector<int>& places) {
   const LentArray<double*> gap(pair.arrays.slave_count);
-  Kokkos::deep_copy(*gap, pair.arrays.gap);
+  Kokkos::deep_copy(ExecutionSpace(), *gap, pair.arrays.gap);
   apart_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
                      PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, *gap});
-  if (places.size() == pair.slave_nodes.size()) return to_vector(*gap);
+  if (places.size() == pair.slave_nodes.size()) return fetched(gap);
   const LentArray<double*> result(places.size());
   Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),
                        PickGaps{*gap, *lent_copy(places), *result});
-  return to_vector(*result);
+  return fetched(result);
 }
 
 /// Shares of the master's nodes in a force on the slaves, where segments are curved.

@@ -6,6 +6,7 @@
 
 #include "kernels/contact/near_nodes.hpp"
 #include "model/contact/surface_rows.hpp"
+#include "model/lent_array.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {
@@ -80,13 +81,19 @@ class CellGrid {
   std::unordered_map<long, std::vector<int>> cells_;
 };
 
-/// Largest squared distance of a surface's nodes from where they were, and largest squared speed, in blocks.
+/// Of some nodes, at most.
+struct SquaredMotion {
+  double moved;  ///< m2, from where they were
+  double speed;  ///< m2/s2
+};
+
+/// The largest motion of a surface's nodes, in blocks.
 struct SurfaceMotion {
   static constexpr int block = 16;
   Array<const double*[3]> position, velocity;
   Array<const int*> nodes;
   Array<const double* [3]> before;
-  Array<double* [2]> largest;
+  Array<SquaredMotion*> largest;
   int first_block;
 
   /// A NaN counts as far: kept as NaN it would be lost at the next comparison.
@@ -102,8 +109,7 @@ struct SurfaceMotion {
       raise(moved, dot(way, way));
       raise(speed, dot(v, v));
     }
-    largest(first_block + b, 0) = moved;
-    largest(first_block + b, 1) = speed;
+    largest(first_block + b) = {moved, speed};
   }
 };
 
@@ -119,20 +125,20 @@ Motion measure(const NodeArrays& nodes, const ContactPair& pair) {
   };
   const ContactArrays& contact = pair.arrays;
   const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
-  const auto largest = unset_array<double* [2]>("largest motion", slave_blocks + master_blocks);
+  const LentArray<SquaredMotion*> largest(slave_blocks + master_blocks);
   Kokkos::parallel_for(
       "slave_motion", Range(0, slave_blocks),
-      SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
+      SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, *largest, 0});
   Kokkos::parallel_for("master_motion", Range(0, master_blocks),
                        SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout,
-                                     largest, slave_blocks});
-  const auto host = to_host(largest);
+                                     *largest, slave_blocks});
+  const std::vector<SquaredMotion> host = fetched(largest);
   Motion motion;
   for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
     double moved = 0, speed = 0;
     for (int b = begin; b < end; ++b) {
-      moved = std::max(moved, host(b, 0));
-      speed = std::max(speed, host(b, 1));
+      moved = std::max(moved, host[b].moved);
+      speed = std::max(speed, host[b].speed);
     }
     motion.moved += std::sqrt(moved);
     motion.speed += std::sqrt(speed);

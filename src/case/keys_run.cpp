@@ -103,10 +103,8 @@ Section solver_section() {
       key("subcycling", &Solver::subcycling,
           "coarse regions take longer steps, 2, 4, ... 32 times the finest, with layers of buffer elements between "
           "the levels; what is in contact or loaded takes the finest step, and so do all elements at multipliers, "
-          "ties, "
-          "prescribed motions and beams. Outputs fall on whole cycles, which are "
-          "as long as the longest step: their intervals are rounded to it. Settling does not use it; not with "
-          "`step_estimate = \"global\"`"),
+          "ties, prescribed motions and beams. Outputs fall on whole cycles, which are as long as the longest step: "
+          "their intervals are rounded to it. Settling does not use it; not with `step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps,
           "steps between renewals of the whole scene's step; 0 is only as contact (`automatic`) or deformed elements "
           "ask "

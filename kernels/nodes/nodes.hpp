@@ -32,6 +32,9 @@ struct alignas(16) SharedNode {
   int node;      ///< with `special_bit` where external forces or a constraint concern it
   int place[2];  ///< its first partial forces, -1: none
   int more;      ///< 0: there are no others; else one more than where MorePlaces has them
+
+  /// So many nodes later what a host's core asks of memory now has come; 12 and 24 are as good.
+  static constexpr int ahead = 12;
 };
 inline constexpr int special_bit = static_cast<int>(0x80000000u);
 
@@ -118,6 +121,18 @@ struct NodalForce {
     return force;
   }
 
+#ifdef RAILWAVE_SIMD_LANES
+  /// Asks for what moving the node will read.
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_shared(const SharedNode& node) const {
+    const int n = node.node & ~special_bit;
+    prefetch(&nodes.position(n, 0));
+    prefetch(&nodes.velocity(n, 0));
+    if (partial.single_precision) return;
+    for (int place : node.place)
+      if (place >= 0) prefetch(&partial.in_double(place));
+  }
+#endif
+
   /// The first partial forces of a shared node, on a device: a host asks for them when it adds them.
   KOKKOS_INLINE_FUNCTION PartialForces::Rows<2> first_rows(const SharedNode& shared) const {
     if (!on_device || shared.place[0] < 0) return {{}, {false, false}};
@@ -147,6 +162,13 @@ struct NodalForce {
   }
 };
 
+/// m/s2
+KOKKOS_INLINE_FUNCTION Vector3 acceleration_under(const Vector3& force, double inverse_mass, const Vector3& gravity) {
+  Vector3 a;
+  for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, force[i], gravity[i]);
+  return a;
+}
+
 /// Central difference of the thesis's table 2.1, (i) and (j), eqs. 2.11 and 2.12, for a node whose acceleration is
 /// known.
 struct NodeAdvance {
@@ -156,9 +178,7 @@ struct NodeAdvance {
   double step;           ///< s
 
   KOKKOS_INLINE_FUNCTION Vector3 acceleration(double inverse_mass, const Vector3& force) const {
-    Vector3 a;
-    for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, force[i], gravity[i]);
-    return a;
+    return acceleration_under(force, inverse_mass, gravity);
   }
 
   KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a) const {
@@ -166,11 +186,12 @@ struct NodeAdvance {
   }
 
   /// @param x, v the node's present position and velocity, where they are at hand
-  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a, const Vector3& x, const Vector3& v) const {
+  /// @param steps so many at once
+  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a, const Vector3& x, const Vector3& v, int steps = 1) const {
     for (int i = 0; i < 3; ++i) {
-      const double next = multiply_add(velocity_step, a[i], v[i]);
+      const double next = multiply_add(steps * velocity_step, a[i], v[i]);
       nodes.velocity(n, i) = next;
-      nodes.position(n, i) = multiply_add(step, next, x[i]);
+      nodes.position(n, i) = multiply_add(steps * step, next, x[i]);
     }
   }
 
@@ -221,7 +242,7 @@ struct NodalAcceleration {
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    return constrain(n, NodeAdvance{force.nodes, gravity, 0, 0}.acceleration(1.0 / force.nodes.mass(n), force(n)));
+    return constrain(n, acceleration_under(force(n), 1.0 / force.nodes.mass(n), gravity));
   }
 };
 

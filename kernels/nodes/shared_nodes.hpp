@@ -52,19 +52,6 @@ struct SharedNodeUpdate {
   NodeAdvance advance;
 
 #ifdef RAILWAVE_SIMD_LANES
-  /// So many nodes later what is asked of memory now has come; 12 and 24 are as good.
-  static constexpr int ahead = 12;
-
-  KOKKOS_FORCEINLINE_FUNCTION void prefetch_node(const SharedNode& node) const {
-    const int n = node.node & ~special_bit;
-    prefetch(&advance.nodes.position(n, 0));
-    prefetch(&advance.nodes.velocity(n, 0));
-    const PartialForces& partial = forces.acceleration.force.partial;
-    if (partial.single_precision) return;
-    for (int place : node.place)
-      if (place >= 0) prefetch(&partial.in_double(place));
-  }
-
   /// Moves a node of several blocks that feels nothing but elements and gravity: nearly all are such.
   KOKKOS_FORCEINLINE_FUNCTION void move_plain(const SharedNode& node) const {
     const NodalForce& force = forces.acceleration.force;
@@ -87,7 +74,8 @@ struct SharedNodeUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
 #ifdef RAILWAVE_SIMD_LANES
-    if (i + ahead < static_cast<int>(forces.shared.nodes.extent(0))) prefetch_node(forces.shared.nodes(i + ahead));
+    if (i + SharedNode::ahead < static_cast<int>(forces.shared.nodes.extent(0)))
+      forces.acceleration.force.prefetch_shared(forces.shared.nodes(i + SharedNode::ahead));
 #endif
     const SharedNode node = forces.shared.nodes(i);
 #ifdef RAILWAVE_SIMD_LANES

@@ -25,22 +25,50 @@ struct SubcycledAcceleration {
   SubcycleLevels levels;
   int phase = most_levels - 1;  ///< elements of levels 0 ... phase are evaluated at this instant
 
+  /// Partial forces, the finer levels' first, over the node's own step, N.
+  struct Sum {
+    Vector3 force;
+    int level;         ///< of the last one
+    double steps = 1;  ///< of that level over the node's own
+  };
+
+  /// @return false: this one and those that follow it are not due
+  KOKKOS_FORCEINLINE_FUNCTION bool add(int place, Sum& sum) const {
+    while (place >= levels.row_end[sum.level]) {
+      ++sum.level;
+      sum.steps *= 2;
+    }
+    if (sum.level > phase) return false;
+    sum.force = sum.force + sum.steps * plain.force.partial(place);
+    return true;
+  }
+
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
     if (levels.level.extent(0) == 0) return plain(n);
     const NodeArrays& nodes = plain.force.nodes;
-    Vector3 force = plain.force.external_force(n);
-    int level = levels.level(n);
-    double steps = 1;
-    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c) {
-      const int place = nodes.partial_place(c);
-      while (place >= levels.row_end[level]) {
-        ++level;
-        steps *= 2;
-      }
-      if (level > phase) break;
-      force = force + steps * plain.force.partial(place);
-    }
-    return plain.constrain(n, NodeAdvance{nodes, plain.gravity, 0, 0}.acceleration(1.0 / nodes.mass(n), force));
+    Sum sum{plain.force.external_force(n), levels.level(n)};
+    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c)
+      if (!add(nodes.partial_place(c), sum)) break;
+    return plain.constrain(n, acceleration_under(sum.force, 1.0 / nodes.mass(n), plain.gravity));
+  }
+
+  /// The same of a shared node that nothing but elements concerns, with the places of its forces at hand.
+  KOKKOS_FORCEINLINE_FUNCTION Vector3 of_elements(const SharedNode& node) const {
+    Sum sum{{{0, 0, 0}}, levels.level(node.node)};
+    add_all(node, sum);
+    return acceleration_under(sum.force, 1.0 / plain.force.nodes.mass(node.node), plain.gravity);
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void add_all(const SharedNode& node, Sum& sum) const {
+    for (int place : node.place)
+      if (place < 0 || !add(place, sum)) return;
+    if (node.more == 0) return;
+    const MorePlaces& more = plain.force.partial.more(node.more - 1);
+    for (int place : more.place)
+      if (place < 0 || !add(place, sum)) return;
+    for (int c = more.first; c < more.last; ++c)
+      if (!add(plain.force.nodes.partial_place(c), sum)) return;
   }
 };
 
@@ -51,12 +79,21 @@ struct SubcycledNodeUpdate {
   Array<const SharedNode*> shared;  ///< the nodes concerned; empty: all
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const int n = shared.extent(0) == 0 ? i : shared(i).node & ~special_bit;
+    if (shared.extent(0) == 0) return move(i, SharedNode{i | special_bit, {-1, -1}, 0});
+#ifdef RAILWAVE_SIMD_LANES
+    if (i + SharedNode::ahead < static_cast<int>(shared.extent(0)))
+      acceleration.plain.force.prefetch_shared(shared(i + SharedNode::ahead));
+#endif
+    const SharedNode node = shared(i);
+    move(node.node & ~special_bit, node);
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void move(int n, const SharedNode& node) const {
     if (acceleration.levels.level(n) > acceleration.phase) return;
-    const int steps = acceleration.levels.steps(n);
-    const NodeAdvance own{advance.nodes, advance.gravity, steps * advance.velocity_step, steps * advance.step};
-    own.move(n, acceleration(n));
-    if (advance.nodes.external_row(n) >= 0)
+    const Vector3 a = node.node >= 0 ? acceleration.of_elements(node) : acceleration(n);
+    advance.move(n, a, row(advance.nodes.position, n), row(advance.nodes.velocity, n), acceleration.levels.steps(n));
+    if (node.node < 0 && advance.nodes.external_row(n) >= 0)
       acceleration.plain.force.external.clear_contact(advance.nodes.external_row(n));
   }
 };

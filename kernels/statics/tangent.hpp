@@ -134,7 +134,19 @@ struct GatherTangent {
   Array<const int*> first_corner, corner;
   Array<const double* [24]> force;
   NodeVector sum;
+
+#ifdef RAILWAVE_SIMD_LANES
+  /// Asks for a node's corner forces.
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_forces(int n) const {
+    for (int k = first_corner(n); k < first_corner(n + 1); ++k) prefetch(&force(corner(k) / 8, 3 * (corner(k) % 8)));
+  }
+#endif
+
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+#ifdef RAILWAVE_SIMD_LANES
+    constexpr int ahead = 12;
+    if (n + ahead < static_cast<int>(sum.extent(0))) prefetch_forces(n + ahead);
+#endif
     double f[3] = {0, 0, 0};
     for (int k = first_corner(n); k < first_corner(n + 1); ++k) {
       const int e = corner(k) / 8, N = corner(k) % 8;

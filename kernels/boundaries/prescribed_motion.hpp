@@ -152,16 +152,21 @@ struct PrescribedChange {
   }
 };
 
-/// The same in a field of some nodes, three values each.
+/// An entry of a field of some nodes, and its node.
+struct FieldEntry {
+  int entry, node;
+};
+
+/// The same in such a field, three values each.
 struct PrescribedField {
   PrescribedInstant instant;
-  Array<const int* [2]> wanted;  ///< entry of the field, node
-  bool velocities;               ///< else accelerations
+  Array<const FieldEntry*> wanted;
+  bool velocities;  ///< else accelerations
   Array<double*> field;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
-    const std::size_t first = 3 * static_cast<std::size_t>(wanted(k, 0));
-    const int n = wanted(k, 1);
+    const std::size_t first = 3 * static_cast<std::size_t>(wanted(k).entry);
+    const int n = wanted(k).node;
     const Vector3 v{{field(first), field(first + 1), field(first + 2)}};
     const Vector3 change = velocities ? instant.velocity_change(n, v) : instant.acceleration(n);
     for (int i = 0; i < 3; ++i) field(first + i) += change[i];

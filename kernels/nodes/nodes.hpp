@@ -32,9 +32,6 @@ struct alignas(16) SharedNode {
   int node;      ///< with `special_bit` where external forces or a constraint concern it
   int place[2];  ///< its first partial forces, -1: none
   int more;      ///< 0: there are no others; else one more than where MorePlaces has them
-
-  /// So many nodes later what a host's core asks of memory now has come; 12 and 24 are as good.
-  static constexpr int ahead = 12;
 };
 inline constexpr int special_bit = static_cast<int>(0x80000000u);
 
@@ -131,7 +128,27 @@ struct NodalForce {
     for (int place : node.place)
       if (place >= 0) prefetch(&partial.in_double(place));
   }
+
+  /// Asks for a node's partial forces.
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_partials(int n) const {
+    if (partial.single_precision) return;
+    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c)
+      prefetch(&partial.in_double(nodes.partial_place(c)));
+  }
 #endif
+
+  /// Calls act(place) for each of a shared node's partial forces, in their order, until it returns false.
+  template <class Act>
+  KOKKOS_FORCEINLINE_FUNCTION void each_place(const SharedNode& shared, const Act& act) const {
+    for (int place : shared.place)
+      if (place < 0 || !act(place)) return;
+    if (shared.more == 0) return;
+    const MorePlaces& more = partial.more(shared.more - 1);
+    for (int place : more.place)
+      if (place < 0 || !act(place)) return;
+    for (int c = more.first; c < more.last; ++c)
+      if (!act(nodes.partial_place(c))) return;
+  }
 
   /// The first partial forces of a shared node, on a device: a host asks for them when it adds them.
   KOKKOS_INLINE_FUNCTION PartialForces::Rows<2> first_rows(const SharedNode& shared) const {
@@ -141,13 +158,11 @@ struct NodalForce {
 
   /// The same as with_rows(), one row after the other.
   KOKKOS_INLINE_FUNCTION Vector3 with_places(Vector3 force, const SharedNode& shared) const {
-    for (int place : shared.place)
-      if (place >= 0) force = force + partial(place);
-    if (shared.more == 0) return force;
-    const MorePlaces& more = partial.more(shared.more - 1);
-    for (int place : more.place)
-      if (place >= 0) force = force + partial(place);
-    return with_partials(force, more.first, more.last);
+    each_place(shared, [&](int place) {
+      force = force + partial(place);
+      return true;
+    });
+    return force;
   }
 
   /// Sum of a shared node's partial forces and others, N.

@@ -74,8 +74,8 @@ struct SharedNodeUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
 #ifdef RAILWAVE_SIMD_LANES
-    if (i + SharedNode::ahead < static_cast<int>(forces.shared.nodes.extent(0)))
-      forces.acceleration.force.prefetch_shared(forces.shared.nodes(i + SharedNode::ahead));
+    if (i + prefetch_ahead < static_cast<int>(forces.shared.nodes.extent(0)))
+      forces.acceleration.force.prefetch_shared(forces.shared.nodes(i + prefetch_ahead));
 #endif
     const SharedNode node = forces.shared.nodes(i);
 #ifdef RAILWAVE_SIMD_LANES

@@ -55,20 +55,8 @@ struct SubcycledAcceleration {
   /// The same of a shared node that nothing but elements concerns, with the places of its forces at hand.
   KOKKOS_FORCEINLINE_FUNCTION Vector3 of_elements(const SharedNode& node) const {
     Sum sum{{{0, 0, 0}}, levels.level(node.node)};
-    add_all(node, sum);
+    plain.force.each_place(node, [&](int place) { return add(place, sum); });
     return acceleration_under(sum.force, 1.0 / plain.force.nodes.mass(node.node), plain.gravity);
-  }
-
- private:
-  KOKKOS_FORCEINLINE_FUNCTION void add_all(const SharedNode& node, Sum& sum) const {
-    for (int place : node.place)
-      if (place < 0 || !add(place, sum)) return;
-    if (node.more == 0) return;
-    const MorePlaces& more = plain.force.partial.more(node.more - 1);
-    for (int place : more.place)
-      if (place < 0 || !add(place, sum)) return;
-    for (int c = more.first; c < more.last; ++c)
-      if (!add(plain.force.nodes.partial_place(c), sum)) return;
   }
 };
 
@@ -81,8 +69,8 @@ struct SubcycledNodeUpdate {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     if (shared.extent(0) == 0) return move(i, SharedNode{i | special_bit, {-1, -1}, 0});
 #ifdef RAILWAVE_SIMD_LANES
-    if (i + SharedNode::ahead < static_cast<int>(shared.extent(0)))
-      acceleration.plain.force.prefetch_shared(shared(i + SharedNode::ahead));
+    if (i + prefetch_ahead < static_cast<int>(shared.extent(0)))
+      acceleration.plain.force.prefetch_shared(shared(i + prefetch_ahead));
 #endif
     const SharedNode node = shared(i);
     move(node.node & ~special_bit, node);

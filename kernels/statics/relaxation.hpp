@@ -16,20 +16,10 @@ struct RelaxationUpdate {
   Array<double* [3]> unbalanced;  ///< N, for the check of convergence
   double damping;                 ///< share of the unbalanced force, below 1
 
-#ifdef RAILWAVE_SIMD_LANES
-  /// Asks for a node's partial forces.
-  KOKKOS_FORCEINLINE_FUNCTION void prefetch_partials(int n) const {
-    const NodalForce& force = acceleration.force;
-    if (force.partial.single_precision) return;
-    for (int c = force.nodes.first_partial(n); c < force.nodes.first_partial(n + 1); ++c)
-      prefetch(&force.partial.in_double(force.nodes.partial_place(c)));
-  }
-#endif
-
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const NodeArrays& nodes = acceleration.force.nodes;
 #ifdef RAILWAVE_SIMD_LANES
-    if (n + SharedNode::ahead < nodes.count) prefetch_partials(n + SharedNode::ahead);
+    if (n + prefetch_ahead < nodes.count) acceleration.force.prefetch_partials(n + prefetch_ahead);
 #endif
     Vector3 force = acceleration.force(n) + nodes.mass(n) * acceleration.gravity;
     if (body_acceleration.extent(0) != 0) force = force + nodes.mass(n) * row(body_acceleration, n);

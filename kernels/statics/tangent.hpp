@@ -144,8 +144,7 @@ struct GatherTangent {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
 #ifdef RAILWAVE_SIMD_LANES
-    constexpr int ahead = 12;
-    if (n + ahead < static_cast<int>(sum.extent(0))) prefetch_forces(n + ahead);
+    if (n + prefetch_ahead < static_cast<int>(sum.extent(0))) prefetch_forces(n + prefetch_ahead);
 #endif
     double f[3] = {0, 0, 0};
     for (int k = first_corner(n); k < first_corner(n + 1); ++k) {

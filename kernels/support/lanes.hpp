@@ -68,6 +68,9 @@ KOKKOS_FORCEINLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 /// function that only prefetches for one without effect and leaves its calls out.
 KOKKOS_FORCEINLINE_FUNCTION void prefetch(const void* place) { __builtin_prefetch(place); }
 
+/// So many nodes later what a host's core asks of memory now has come; 12 and 24 are as good.
+inline constexpr int prefetch_ahead = 12;
+
 /// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than
 /// lane by lane. (The forms with a mask, because g++ 12 warns of the others.)
 template <class S, class Index>

@@ -1,7 +1,6 @@
 #include "model/fields.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -9,7 +8,6 @@
 #include "model/boundaries/ties.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
-#include "model/host_copy.hpp"
 #include "model/lent_array.hpp"
 #include "model/nodal_state.hpp"
 
@@ -111,31 +109,30 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
   return {1, fetched(result)};
 }
 
-/// Entries of a list of nodes that a prescribed motion moves, with the nodes.
-Array<int* [2]> driven_entries(const PrescribedSet& set, const std::vector<int>& nodes) {
-  std::vector<std::array<int, 2>> entries;
+/// Entries of a list of nodes that a prescribed motion moves.
+std::vector<FieldEntry> driven_entries(const PrescribedSet& set, const std::vector<int>& nodes) {
+  std::vector<FieldEntry> entries;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (std::binary_search(set.host_nodes.begin(), set.host_nodes.end(), nodes[i]))
       entries.push_back({static_cast<int>(i), nodes[i]});
-  return to_device("driven nodes of a field", entries);
+  return entries;
 }
 
-bool of_motion(NodeField field) {
-  return field == NodeField::velocity || field == NodeField::acceleration;
-}
+bool of_motion(NodeField field) { return field == NodeField::velocity || field == NodeField::acceleration; }
 
 /// Driven nodes move as their motion says, of which the scheme has no acceleration.
 void follow_prescribed(const NodalState& nodal, const std::vector<NodeField>& fields, const std::vector<int>& nodes,
                        const Array<double*>& values) {
   if (std::none_of(fields.begin(), fields.end(), of_motion)) return;
   for (const PrescribedSet& set : nodal.prescribed) {
-    const Array<int* [2]> entries = driven_entries(set, nodes);
-    const int count = static_cast<int>(entries.extent(0));
+    const std::vector<FieldEntry> driven = driven_entries(set, nodes);
+    const LentArray<FieldEntry*> entries = lent_copy(driven);
+    const int count = static_cast<int>(driven.size());
     for (std::size_t f = 0; f < fields.size() && count > 0; ++f) {
       if (!of_motion(fields[f])) continue;
       const std::size_t first = 3 * f * nodes.size();
       Kokkos::parallel_for("follow_prescribed", Range(0, count),
-                           PrescribedField{prescribed_instant(nodal, set), entries, fields[f] == NodeField::velocity,
+                           PrescribedField{prescribed_instant(nodal, set), *entries, fields[f] == NodeField::velocity,
                                            Kokkos::subview(values, std::make_pair(first, first + 3 * nodes.size()))});
     }
   }

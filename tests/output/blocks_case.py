@@ -147,6 +147,16 @@ part = "rib"
 position = [0.08, 0.022, 0.022]
 """
 
+def long_lower(layers):
+    """A fine upper block on a lower one of so many layers of 10 mm."""
+    return {
+        "divisions = [5, 5, 4]": "divisions = [14, 14, 4]",
+        "size = [0.06, 0.05, 0.03]": f"size = [0.06, 0.05, 0.{layers:02}]",
+        "divisions = [6, 5, 3]": f"divisions = [6, 5, {layers}]",
+        "0.03001]": f"0.{layers:02}001]",
+    }
+
+
 KINDS = {
     "penalty": dict(
         of_contact="damping = 0.1\nfriction_decay = 0.5\ndynamic_friction = 0.1",
@@ -162,22 +172,14 @@ KINDS = {
         more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS,
         of_upper="stiffness_damping = 2e-9",
         end=4e-4,
-        instead={
-            "divisions = [5, 5, 4]": "divisions = [14, 14, 4]",
-            "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
-            "divisions = [6, 5, 3]": "divisions = [6, 5, 8]",
-            "0.03001]": "0.08001]",
-        },
+        instead=long_lower(8),
     ),
     "subcycling_much_else": dict(
         of_contact='algorithm = "multiplier"',
         more="[solver]\nsubcycling = true\n" + BEAMS + PUSHED,
         end=4e-4,
         instead={
-            "divisions = [5, 5, 4]": "divisions = [14, 14, 4]",
-            "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.24]",
-            "divisions = [6, 5, 3]": "divisions = [6, 5, 24]",
-            "0.03001]": "0.24001]",
+            **long_lower(24),
             "[0.025, 0.025, 0.075]": "[0.025, 0.025, 0.285]",
             "[0.03, 0.03, 0.2]": "[0.03, 0.03, 0.41]",
         },

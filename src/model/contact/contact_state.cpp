@@ -286,9 +286,8 @@ void add_curved_forces(const NodalState& nodal, const ContactPair& pair, const A
   ExternalForceSum sum;
   sum.quantum = nodal.external.sum.quantum;
   sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
-  Kokkos::parallel_for(
-      "curved_shares", Range(0, pair.arrays.slave_count),
-      CurvedShares{ContactSearch{{pair.arrays, nodal.nodes.position}}, sum, to_device("place of node", place), force});
+  Kokkos::parallel_for("curved_shares", Range(0, pair.arrays.slave_count),
+                       CurvedShares{ContactSearch{{pair.arrays, nodal.nodes.position}}, sum, *lent_copy(place), force});
   const auto quanta = to_host(sum.contact);
   for (std::size_t k = 0; k < master.places.size(); ++k)
     for (int i = 0; i < 3; ++i)

@@ -65,19 +65,24 @@ class OwnSteps {
   std::vector<double> at_node_;  ///< squared frequency of springs, 1/s2
 };
 
+/// With one of the nodes that are marked.
+std::vector<int> elements_at(const Assembly& assembly, const std::vector<char>& marked) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < assembly.elements.size(); ++e) {
+    const auto& nodes = assembly.elements[e];
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return marked[n] != 0; }))
+      elements.push_back(static_cast<int>(e));
+  }
+  return elements;
+}
+
 /// Bodies in contact are neighbours wherever they may touch: one level for the elements of both surfaces.
 void level_contacts(const Assembly& assembly, const std::vector<ContactPair>& contacts, std::vector<int>& fit) {
   for (const ContactPair& pair : contacts) {
     std::vector<char> of_pair(assembly.nodes.size(), 0);
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes) of_pair[n] = 1;
-    std::vector<int> elements;
-    for (std::size_t e = 0; e < fit.size(); ++e)
-      for (int n : assembly.elements[e])
-        if (of_pair[n] != 0) {
-          elements.push_back(static_cast<int>(e));
-          break;
-        }
+    const std::vector<int> elements = elements_at(assembly, of_pair);
     int least = most_levels;
     for (int e : elements) least = std::min(least, fit[e]);
     for (int e : elements) fit[e] = least;
@@ -151,10 +156,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
                         most_levels - 1);
   }
   level_contacts(assembly, model.contacts, fit);
-  const std::vector<char> of_every_step = nodes_of_every_step(model);
-  for (std::size_t e = 0; e < fit.size(); ++e)
-    for (int n : assembly.elements[e])
-      if (of_every_step[n] != 0) fit[e] = 0;
+  for (int e : elements_at(assembly, nodes_of_every_step(model))) fit[e] = 0;
 
   std::vector<int> levels(steps.size(), 0);
   std::vector<char> in(steps.size(), 1);

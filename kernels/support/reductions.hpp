@@ -6,6 +6,7 @@
 
 #include "kernels/support/block_largest.hpp"
 #include "kernels/support/block_sum.hpp"
+#include "kernels/support/meanwhile.hpp"
 #include "kernels/support/milestone.hpp"
 #include "kernels/support/team_reduction.hpp"
 
@@ -72,7 +73,7 @@ class Reductions {
   /// Waits for what is queued and hands it out in the order of queueing.
   void fetch() {
     copy_to_host();
-    order_.fence();
+    wait_for(order_);
     hand_out();
   }
 

@@ -4,17 +4,25 @@
 #include <mutex>
 #include <vector>
 
-#include "kernels/support/spaces.hpp"
+#include "kernels/support/meanwhile.hpp"
 
 /// Copies between std::vector and device arrays, and work of the host on what is copied.
 namespace railwave {
+
+/// A copy from the host to the device, or from there, in the default order of launches: one without an order would wait
+/// for all that other runs have launched in theirs.
+template <class To, class From>
+void copy_in_order(const To& to, const From& from) {
+  Kokkos::deep_copy(ExecutionSpace(), to, from);
+  wait_for(ExecutionSpace());
+}
 
 template <class T>
 Array<T*> to_device(const char* label, const std::vector<T>& values) {
   auto device = unset_array<T*>(label, values.size());
   const auto host = Kokkos::create_mirror_view(device);
   for (std::size_t i = 0; i < values.size(); ++i) host(i) = values[i];
-  Kokkos::deep_copy(device, host);
+  copy_in_order(device, host);
   return device;
 }
 
@@ -25,7 +33,7 @@ Array<T* [N]> to_device(const char* label, const std::vector<std::array<T, N>>& 
   const auto host = Kokkos::create_mirror_view(device);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = 0; k < N; ++k) host(i, k) = rows[i][k];
-  Kokkos::deep_copy(device, host);
+  copy_in_order(device, host);
   return device;
 }
 
@@ -33,7 +41,7 @@ Array<T* [N]> to_device(const char* label, const std::vector<std::array<T, N>>& 
 template <class View>
 typename View::HostMirror to_host(const View& device) {
   const auto host = Kokkos::create_mirror_view(device);
-  Kokkos::deep_copy(host, device);
+  copy_in_order(host, device);
   return host;
 }
 
@@ -42,7 +50,7 @@ template <class T>
 std::vector<T> to_vector(const Array<T*>& device) {
   std::vector<T> values(device.extent(0));
   using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  Kokkos::deep_copy(Plain(values.data(), values.size()), device);
+  copy_in_order(Plain(values.data(), values.size()), device);
   return values;
 }
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kernels/support/spaces.hpp"
+#include "model/host_copy.hpp"
 
 namespace railwave {
 
@@ -24,8 +24,7 @@ inline constexpr std::size_t most_kept_memory = std::size_t{64} << 20;
 std::size_t kept_memory();
 
 /// An array in lent memory, uninitialised: for what is computed and fetched again and again, as fields of outputs are.
-/// In the default order of launches alone, so that the next borrower comes after what this one has launched; and copied
-/// in it, so that the host waits for that order and not for all that other runs have launched in theirs.
+/// In the default order of launches alone, so that the next borrower comes after what this one has launched.
 template <class T>
 class LentArray {
  public:
@@ -45,8 +44,7 @@ template <class T>
 LentArray<T*> lent_copy(const std::vector<T>& values) {
   LentArray<T*> copy(values.size());
   using Plain = Kokkos::View<const T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  Kokkos::deep_copy(ExecutionSpace(), *copy, Plain(values.data(), values.size()));
-  ExecutionSpace().fence();
+  copy_in_order(*copy, Plain(values.data(), values.size()));
   return copy;
 }
 
@@ -55,8 +53,7 @@ template <class T>
 std::vector<T> fetched(const LentArray<T*>& lent) {
   std::vector<T> values((*lent).extent(0));
   using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  Kokkos::deep_copy(ExecutionSpace(), Plain(values.data(), values.size()), *lent);
-  ExecutionSpace().fence();
+  copy_in_order(Plain(values.data(), values.size()), *lent);
   return values;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/support/spaces.hpp"
+#include "kernels/support/meanwhile.hpp"
 
 namespace railwave {
 
@@ -23,14 +23,14 @@ class LaunchOrder {
 
   /// Before launches in this order.
   void enter() {
-    if (own_ && others_launched_) ExecutionSpace().fence();
+    if (own_ && others_launched_) wait_for(ExecutionSpace());
     others_launched_ = false;
     launched_ = true;
   }
 
   /// Before launches of the run's in the default one.
   void leave() {
-    if (own_ && launched_) space_.fence();
+    if (own_ && launched_) wait_for(space_);
     launched_ = false;
     others_launched_ = true;
   }

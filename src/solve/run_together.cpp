@@ -1,6 +1,7 @@
 #include <exception>
 #include <memory>
 
+#include "kernels/support/meanwhile.hpp"
 #include "solve/launch_graph.hpp"
 #include "solve/loop.hpp"
 
@@ -45,23 +46,39 @@ std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members)
       loops[m].reset();
     });
   };
+  const auto take_turn = [&](std::size_t m, int most) {
+    unless_it_fails(m, [&] {
+      for (int k = 0; k < most && !loops[m]->busy() && loops[m]->go_on(); ++k) {
+      }
+    });
+  };
+  // While one waits for the device, in a search for its step or an output, others go on. A search waits for its turn.
+  std::size_t whose_turn = 0, of_others = 0;
+  const Meanwhile others_go_on([&] {
+    for (std::size_t tried = 0; tried < members.size(); ++tried) {
+      of_others = (of_others + 1) % members.size();
+      const auto& loop = loops[of_others];
+      if (of_others == whose_turn || !loop || loop->has_ended() || loop->busy() || loop->may_search()) continue;
+      return take_turn(of_others, 1);
+    }
+  });
   for (bool any = true; any;) {
     any = false;
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (!loops[m]) continue;
+      whose_turn = m;
       if (loops[m]->has_ended()) {
         if (loops[m]->seconds_since_end() > until_written) end(m);
         continue;
       }
       any = true;
-      unless_it_fails(m, [&] {
-        for (int k = 0; k < most_in_turn && !loops[m]->busy() && loops[m]->go_on(); ++k) {
-        }
-      });
+      take_turn(m, most_in_turn);
     }
   }
-  for (std::size_t m = 0; m < members.size(); ++m)
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    whose_turn = m;
     if (loops[m]) end(m);
+  }
   return outcomes;
 }
 

@@ -81,8 +81,9 @@ bool StepControl::due() const {
          (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
 }
 
-bool StepControl::looks_at_model() const {
-  if (deformed_.due(nodal_.step)) return true;
+bool StepControl::looks_at_model() const { return deformed_.due(nodal_.step) || may_search(); }
+
+bool StepControl::may_search() const {
   // Unless the step is chosen automatically, due() itself looks.
   const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
   return automatic ? due() : may_renew_estimate(nodal_.step);

@@ -35,6 +35,9 @@ class StepControl {
   /// Whether the present step looks at the model: at its elements, or for another estimate.
   bool looks_at_model() const;
 
+  /// Whether it does so for another estimate, which takes as long as hundreds of steps.
+  bool may_search() const;
+
   /// Renews the estimate where that is due, and follows deformed elements; call before the forces of the present
   /// instant, which move nodes already. True: the step from this instant to the next is another one than the last.
   bool renew();

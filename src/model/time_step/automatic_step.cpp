@@ -74,7 +74,7 @@ void count_in(const std::vector<ContactPair>& contacts, const std::vector<std::v
     if (contacts[p].counted.extent(0) == 0) continue;
     const auto host = Kokkos::create_mirror_view(contacts[p].counted);
     for (std::size_t s = 0; s < counted[p].size(); ++s) host(s) = counted[p][s];
-    Kokkos::deep_copy(contacts[p].counted, host);
+    copy_in_order(contacts[p].counted, host);
   }
 }
 

@@ -129,7 +129,7 @@ void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result)
       counted[spring.slave] = spring.stiffness / pair.growth;
     }
   }
-  tangent_.set_springs(collector.on_device());
+  tangent_.set_springs(collector);
 }
 
 void GlobalEstimate::apply(double inverse_time) {
@@ -177,7 +177,7 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
   const double size = std::sqrt(inner(now_, now_));
   if (!(size > 0)) return 0;  // everything is held
   Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
-  Kokkos::deep_copy(before_, 0.0);
+  Kokkos::deep_copy(ExecutionSpace(), before_, 0.0);
 
   std::vector<double> diagonal, beside;
   RitzValue ritz;
@@ -223,7 +223,7 @@ GlobalStep GlobalEstimate::of_elements(const ContactOnNodes& contact, double lon
   SpringCollector collector;
   for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
     if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
-  tangent_.set_springs(collector.on_device());
+  tangent_.set_springs(collector);
   return solve(longest, Guess::most, {});
 }
 

@@ -3,6 +3,7 @@
 #include "kernels/statics/tangent.hpp"
 #include "model/assembly.hpp"
 #include "model/elements/hourglass_scale.hpp"
+#include "model/time_step/tangent_springs.hpp"
 
 namespace railwave {
 
@@ -16,7 +17,7 @@ class TangentOperator {
   /// @param more_rows of the vectors, behind the nodes', for springs alone
   explicit TangentOperator(const Assembly& assembly, int more_rows = 0);
 
-  void set_springs(TangentSprings springs) { springs_ = springs; }
+  void set_springs(const SpringCollector& springs) { springs.bring_to(springs_); }
 
   /// f = K u, replacing what f held.
   /// @param stiffness of each part, in order

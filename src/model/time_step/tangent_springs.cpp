@@ -92,36 +92,71 @@ void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vecto
   close(stiffness, 0);
 }
 
-TangentSprings SpringCollector::on_device() const {
-  TangentSprings springs;
-  springs.count = static_cast<int>(stiffness_.size());
-  std::vector<int> nodes = node_;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto place_of = [&](int n) { return std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin(); };
-  std::vector<int> first(nodes.size() + 1, 0);
-  for (int n : node_) ++first[place_of(n) + 1];
-  for (std::size_t k = 0; k < nodes.size(); ++k) first[k + 1] += first[k];
-  std::vector<int> filled(first.begin(), first.end() - 1), spring(node_.size());
-  std::vector<Vec3> share(node_.size());
-  for (int s = 0; s < springs.count; ++s)
-    for (int k = first_[s]; k < first_[s + 1]; ++k) {
-      const int at = filled[place_of(node_[k])]++;
-      spring[at] = s;
-      share[at] = share_[k];
+namespace {
+
+void put_row(const Array<int*>::HostMirror& host, int i, int value) { host(i) = value; }
+void put_row(const Array<double*>::HostMirror& host, int i, double value) { host(i) = value; }
+void put_row(const Array<double* [3]>::HostMirror& host, int i, const Vec3& value) {
+  for (int k = 0; k < 3; ++k) host(i, k) = value[k];
+}
+
+/// Into an array that is as long, or longer.
+template <class T, class Row>
+void bring(const char* label, const std::vector<Row>& rows, Array<T>& array) {
+  if (array.extent(0) < rows.size()) array = unset_array<T>(label, rows.size() + rows.size() / 4);
+  const auto host = Kokkos::create_mirror_view(array);
+  for (std::size_t i = 0; i < rows.size(); ++i) put_row(host, static_cast<int>(i), rows[i]);
+  copy_in_order(array, host);
+}
+
+/// Rows of a list by the nodes that they belong to.
+struct RowsOfNodes {
+  std::vector<int> nodes;  ///< that have rows, ascending
+  std::vector<int> first;  ///< of each node's rows, and their end
+  std::vector<int> rows;   ///< node after node, ascending
+
+  explicit RowsOfNodes(const std::vector<int>& node_of_row) : first{0}, rows(node_of_row.size()) {
+    if (rows.empty()) return;
+    const auto [least, most] = std::minmax_element(node_of_row.begin(), node_of_row.end());
+    const int lowest = *least;
+    std::vector<int> next(*most - lowest + 1, 0);
+    for (const int n : node_of_row) ++next[n - lowest];
+    for (std::size_t n = 0; n < next.size(); ++n) {
+      if (next[n] == 0) continue;
+      nodes.push_back(lowest + static_cast<int>(n));
+      first.push_back(first.back() + next[n]);
+      next[n] = first[first.size() - 2];
     }
-  springs.first = to_device("tangent spring first", first_);
-  springs.node = to_device("tangent spring node", node_);
-  springs.share = to_device("tangent spring share", share_);
-  springs.stiffness = to_device("tangent spring stiffness", stiffness_);
-  springs.damping = to_device("tangent spring damping", damping_);
-  springs.force = Array<double*>("tangent spring force", springs.count);
-  springs.node_count = static_cast<int>(nodes.size());
-  springs.with_springs = to_device("nodes with tangent springs", nodes);
-  springs.first_of_node = to_device("tangent springs of node, first", first);
-  springs.spring_of_node = to_device("tangent springs of node", spring);
-  springs.share_of_node = to_device("tangent spring share of node", share);
-  return springs;
+    for (std::size_t r = 0; r < rows.size(); ++r) rows[next[node_of_row[r] - lowest]++] = static_cast<int>(r);
+  }
+};
+
+}  // namespace
+
+void SpringCollector::bring_to(TangentSprings& springs) const {
+  springs.count = static_cast<int>(stiffness_.size());
+  std::vector<int> spring_of_row(node_.size());
+  for (int s = 0; s < springs.count; ++s)
+    std::fill(spring_of_row.begin() + first_[s], spring_of_row.begin() + first_[s + 1], s);
+  const RowsOfNodes of_nodes(node_);
+  springs.node_count = static_cast<int>(of_nodes.nodes.size());
+  std::vector<int> spring;
+  std::vector<Vec3> share;
+  for (const int row : of_nodes.rows) {
+    spring.push_back(spring_of_row[row]);
+    share.push_back(share_[row]);
+  }
+  bring("tangent spring first", first_, springs.first);
+  bring("tangent spring node", node_, springs.node);
+  bring("tangent spring share", share_, springs.share);
+  bring("tangent spring stiffness", stiffness_, springs.stiffness);
+  bring("tangent spring damping", damping_, springs.damping);
+  if (springs.force.extent(0) < stiffness_.size())
+    springs.force = unset_array<double*>("tangent spring force", springs.stiffness.extent(0));
+  bring("nodes with tangent springs", of_nodes.nodes, springs.with_springs);
+  bring("tangent springs of node, first", of_nodes.first, springs.first_of_node);
+  bring("tangent springs of node", spring, springs.spring_of_node);
+  bring("tangent spring share of node", share, springs.share_of_node);
 }
 
 }  // namespace railwave

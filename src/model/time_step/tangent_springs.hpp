@@ -35,8 +35,8 @@ class SpringCollector {
   const std::vector<Vec3>& share() const { return share_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
 
-  /// Everything collected, on the device.
-  TangentSprings on_device() const;
+  /// Everything collected, to the device, in place of what was there: a GPU takes longer to make arrays anew.
+  void bring_to(TangentSprings& springs) const;
 
  private:
   void add(int node, double weight, const Vec3& direction);

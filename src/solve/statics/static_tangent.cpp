@@ -68,7 +68,7 @@ StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& 
 
 void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
   shift_ = shift;
-  tangent_.set_springs(springs.on_device());
+  tangent_.set_springs(springs);
   if (parts_ != nullptr) parts_->place(nodes_.position);
   // The elements' part of the few blocks that springs concern, to be put back.
   std::map<int, std::array<double, 6>> before;

@@ -176,7 +176,7 @@ void fill_window(ContactWindow& window, int slave_count, const std::vector<Windo
   const auto host = Kokkos::create_mirror_view(window.entries);
   std::copy(entries.begin(), entries.end(), host.data());
   std::fill(host.data() + entries.size(), host.data() + slave_count, WindowEntry{});
-  Kokkos::deep_copy(window.entries, host);
+  copy_in_order(window.entries, host);
   window.resize(static_cast<int>(entries.size()));
 }
 
@@ -234,9 +234,9 @@ bool renew_window(const NodalState& nodal, ContactPair& pair, double step, doubl
 /// In the default space, after what has been launched in another and before what will be.
 bool renew_window_between(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step,
                           double sudden) {
-  space.fence();
+  wait_for(space);
   const bool anew = renew_window(nodal, pair, step, sudden);
-  ExecutionSpace().fence();
+  wait_for(ExecutionSpace());
   return anew;
 }
 

@@ -164,12 +164,19 @@ void widen_by(Bounds& box, const std::vector<TouchingSlave>& touching) {
   }
 }
 
-/// Area and normal of the wanted nodes, by all facets around them; those facets of which all corners are wanted.
-void add_geometry(const NodalState& nodal, const Ties& ties, const std::vector<int>& surface,
-                  const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted, ContactSide& side) {
-  std::vector<int> around = wanted.places;  // of these nodes and those of the facets around them, these first
+/// One side's wanted nodes, and those of the facets around them where its shape is asked for.
+struct NodesAround {
+  std::vector<int> nodes;                         ///< model node numbers, the wanted ones first
+  std::vector<std::array<int, 4>> facets;         ///< around wanted nodes: positions in `nodes`
+  std::vector<std::array<int, 4>> wanted_facets;  ///< of which all corners are wanted
+};
+
+NodesAround nodes_around(const std::vector<int>& surface, const std::vector<std::array<int, 4>>& facets,
+                         const WantedNodes& wanted, bool shape) {
+  NodesAround around;
+  for (const int place : wanted.places) around.nodes.push_back(surface[place]);
+  if (!shape) return around;
   std::vector<int> place_of = wanted.place_of;
-  std::vector<std::array<int, 4>> facets_around;
   for (const auto& facet : facets) {
     const auto is_wanted = [&](int k) { return wanted.place_of[k] >= 0; };
     if (std::none_of(facet.begin(), facet.end(), is_wanted)) continue;
@@ -177,24 +184,15 @@ void add_geometry(const NodalState& nodal, const Ties& ties, const std::vector<i
     for (int c = 0; c < 4; ++c) {
       int& place = place_of[facet[c]];
       if (place < 0) {
-        place = static_cast<int>(around.size());
-        around.push_back(facet[c]);
+        place = static_cast<int>(around.nodes.size());
+        around.nodes.push_back(surface[facet[c]]);
       }
       corners[c] = place;
     }
-    facets_around.push_back(corners);
-    if (std::all_of(facet.begin(), facet.end(), is_wanted)) side.facets.push_back(corners);
+    around.facets.push_back(corners);
+    if (std::all_of(facet.begin(), facet.end(), is_wanted)) around.wanted_facets.push_back(corners);
   }
-  for (int& k : around) k = surface[k];
-  std::vector<double> position = node_field(nodal, ties, NodeField::position, around).values;
-  SurfaceGeometry geometry = surface_geometry(position, facets_around);
-  const std::size_t count = wanted.places.size();
-  geometry.area.resize(count);
-  geometry.normal.resize(3 * count);
-  position.resize(3 * count);
-  side.area = std::move(geometry.area);
-  side.normal = std::move(geometry.normal);
-  side.position = std::move(position);
+  return around;
 }
 
 ContactSide bare_side(const std::vector<int>& surface, const WantedNodes& wanted) {
@@ -206,19 +204,42 @@ ContactSide bare_side(const std::vector<int>& surface, const WantedNodes& wanted
   return side;
 }
 
-/// Displacements and velocities of both sides, by one copy from the device.
-void add_motion(const NodalState& nodal, const Ties& ties, ContactSide& slave, ContactSide& master) {
-  std::vector<int> nodes = slave.nodes;
-  nodes.insert(nodes.end(), master.nodes.begin(), master.nodes.end());
-  const auto fields = node_fields(nodal, ties, {NodeField::displacement, NodeField::velocity}, nodes);
-  const auto share_out = [&](const std::vector<double>& values, std::vector<double>& of_slave,
-                             std::vector<double>& of_master) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(3 * slave.nodes.size());
-    of_slave.assign(values.begin(), middle);
-    of_master.assign(middle, values.end());
+/// Area and normal of the wanted nodes, by all facets around them.
+/// @param position m, of all nodes around
+void add_geometry(NodesAround around, std::vector<double> position, ContactSide& side) {
+  SurfaceGeometry geometry = surface_geometry(position, around.facets);
+  const std::size_t count = side.nodes.size();
+  geometry.area.resize(count);
+  geometry.normal.resize(3 * count);
+  position.resize(3 * count);
+  side.area = std::move(geometry.area);
+  side.normal = std::move(geometry.normal);
+  side.position = std::move(position);
+  side.facets = std::move(around.wanted_facets);
+}
+
+/// Where both sides' nodes are and how they move, by one copy from the device, and the shape of those asked for.
+void add_motion(const NodalState& nodal, const Ties& ties, const ContactWish& wish, NodesAround of_slave,
+                NodesAround of_master, ContactSide& slave, ContactSide& master) {
+  std::vector<int> nodes = of_slave.nodes;
+  nodes.insert(nodes.end(), of_master.nodes.begin(), of_master.nodes.end());
+  std::vector<NodeField> wanted{NodeField::displacement, NodeField::velocity};
+  if (wish.shape) wanted.push_back(NodeField::position);
+  const std::vector<HostField> fields = node_fields(nodal, ties, wanted, nodes);
+  const auto values = [](const HostField& field, std::size_t first, std::size_t count) {
+    const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(3 * first);
+    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(3 * count));
   };
-  share_out(fields[0].values, slave.displacement, master.displacement);
-  share_out(fields[1].values, slave.velocity, master.velocity);
+  const auto add = [&](NodesAround&& around, std::size_t first, bool shape, ContactSide& side) {
+    side.displacement = values(fields[0], first, side.nodes.size());
+    side.velocity = values(fields[1], first, side.nodes.size());
+    if (!shape) return;
+    const std::size_t all = around.nodes.size();
+    add_geometry(std::move(around), values(fields[2], first, all), side);
+  };
+  const std::size_t first_of_master = of_slave.nodes.size();
+  add(std::move(of_slave), 0, wish.shape && wish.slave, slave);
+  add(std::move(of_master), first_of_master, wish.shape && wish.master, master);
 }
 
 /// Present gap of the far nodes in the window: a step projects the near ones only.
@@ -371,10 +392,9 @@ ContactState contact_state(const NodalState& nodal, const Ties& ties, const std:
   state.friction = pair.arrays.friction;
   state.slave = bare_side(pair.slave_nodes, slave);
   state.master = bare_side(pair.master_nodes, master);
-  add_motion(nodal, ties, state.slave, state.master);
-  if (wish.shape && wish.slave) add_geometry(nodal, ties, pair.slave_nodes, pair.slave_facets, slave, state.slave);
-  if (wish.shape && wish.master)
-    add_geometry(nodal, ties, pair.master_nodes, pair.master_segments, master, state.master);
+  add_motion(nodal, ties, wish, nodes_around(pair.slave_nodes, pair.slave_facets, slave, wish.shape && wish.slave),
+             nodes_around(pair.master_nodes, pair.master_segments, master, wish.shape && wish.master), state.slave,
+             state.master);
   add_forces(nodal, pair, touching, slave, master, state.slave, state.master);
   if (half) add_forces(nodal, *half, touching_half, master, slave, state.master, state.slave);
 

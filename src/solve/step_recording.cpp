@@ -192,7 +192,8 @@ struct StepRecording::Recordings {
     while (2 * steps <= std::min<long>(quiet, most) && frame % (2 * steps) == 0 &&
            model.step % std::min(2 * steps, cycle) == 0)
       steps *= 2;
-    return steps;
+    // Of the 64 steps between two checks for near nodes the first may come by itself. The last are one graph, not four.
+    return quiet == most - 1 && cycle == 1 && !model.relative.active() ? quiet : steps;
   }
 
   /// Where elements fill the device, in parts or not: the later part last.

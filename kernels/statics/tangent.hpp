@@ -42,46 +42,100 @@ struct ElementStiffness {
            bulk == other.bulk;
   }
 
+  /// @tparam T a number, or a pack of numbers
   /// @param x modes of the coordinates, m
   /// @param u modes of the displacements, m
   /// @param force by direction and corner, N
-  KOKKOS_INLINE_FUNCTION void operator()(const double (&x)[3][7], const double (&u)[3][7],
-                                         double (&force)[3][8]) const {
-    double B[3][6], L[3][3];
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T (&x)[3][7], const T (&u)[3][7], T (&force)[3][8]) const {
+    T B[3][6], L[3][3];
     mean_gradient<double>(x, B);
-    const double volume = along(x[0], B[0]), inverse = 1 / volume, root = std::cbrt(volume);
+    const T volume = along(x[0], B[0]), inverse = 1 / volume, root = cube_root(volume);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) L[i][j] = inverse * along(u[i], B[j]);
-    const double scale = hourglass * (viscous ? root * root : root);
-    const double trace = (lambda + bulk * root) * (L[0][0] + L[1][1] + L[2][2]);
+    const T scale = hourglass * (viscous ? root * root : root);
+    const T trace = (lambda + bulk * root) * (L[0][0] + L[1][1] + L[2][2]);
     for (int i = 0; i < 3; ++i) {
-      double q[4], T[3], modes[7];
+      T q[4], t[3], modes[7];
       for (int M = 0; M < 4; ++M) q[M] = scale * hourglass_content(u[i], L[i], x, M);
       for (int j = 0; j < 3; ++j) {
-        T[j] = mu * (L[i][j] + L[j][i]) + (i == j ? trace : 0.0);
-        for (int M = 0; M < 4; ++M) T[j] -= inverse * q[M] * x[j][3 + M];
+        t[j] = mu * (L[i][j] + L[j][i]);
+        if (i == j) t[j] += trace;
+        for (int M = 0; M < 4; ++M) t[j] -= inverse * q[M] * x[j][3 + M];
       }
       for (int k = 0; k < 7; ++k) {
-        modes[k] = k < 3 ? 0.0 : q[k - 3];
-        if (k < 6) modes[k] += T[0] * B[0][k] + T[1] * B[1][k] + T[2] * B[2][k];
+        modes[k] = k < 3 ? T(0) : q[k - 3];
+        if (k < 6) modes[k] += t[0] * B[0][k] + t[1] * B[1][k] + t[2] * B[2][k];
       }
       corners_of(modes, force[i]);
     }
   }
+
+ private:
+  static KOKKOS_INLINE_FUNCTION double cube_root(double volume) { return std::cbrt(volume); }
+#ifdef RAILWAVE_SIMD_LANES
+  static Pack<double> cube_root(const Pack<double>& volume) {
+    return Pack<double>([&](auto lane) { return std::cbrt(static_cast<double>(volume[lane])); });
+  }
+#endif
 };
 
-/// Forces K u + C u / tau of the elements of one part on their corners, element by element.
+/// Forces K u + C u / tau of the elements of one part on their corners, element by element: a pack of them at once.
 struct ElementTangent {
-  int first;  ///< element
+  using T = Pack<double>;
+  static constexpr int lanes = lane_count<double>;
+  int first, count;  ///< elements
   ElementStiffness stiffness;
   Array<const int* [8]> corners;
   Array<const double* [3]> position;
   NodeVector displacement;
   Array<double* [24]> force;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i_element) const {
-    const int e = first + i_element;
-    double x[3][7], u[3][7], at_corner[3][8];
+  static int batches(int elements) { return (elements + lanes - 1) / lanes; }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int batch) const {
+    const int begin = batch * lanes, left = count - begin;
+    const int filled = left < lanes ? left : lanes;
+    T x[3][7], u[3][7], at_corner[3][8];
+    bring(first + begin, filled, x, u);
+    stiffness(x, u, at_corner);
+    leave(first + begin, filled, at_corner);
+  }
+
+#ifdef RAILWAVE_SIMD_LANES
+  /// A node's values lie together, those of a pack's elements do not: they are put side by side one by one.
+  /// @param filled lanes; the others compute the last one's element again
+  KOKKOS_FORCEINLINE_FUNCTION void bring(int e, int filled, T (&x)[3][7], T (&u)[3][7]) const {
+    double place[3][8][lanes], moved[3][8][lanes];
+    for (int l = 0; l < lanes; ++l)
+      for (int N = 0; N < 8; ++N) {
+        const int n = corners(e + (l < filled ? l : filled - 1), N);
+        for (int i = 0; i < 3; ++i) {
+          place[i][N][l] = position(n, i);
+          moved[i][N][l] = displacement(n, i);
+        }
+      }
+    for (int i = 0; i < 3; ++i) {
+      modes_of_lanes(place[i], x[i]);
+      modes_of_lanes(moved[i], u[i]);
+    }
+  }
+
+  static void modes_of_lanes(const double (&values)[8][lanes], T (&modes)[7]) {
+    T of_corner[8];
+    for (int N = 0; N < 8; ++N) of_corner[N] = load<double>(values[N]);
+    modes_of(of_corner, modes);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void leave(int e, int filled, const T (&at_corner)[3][8]) const {
+    double values[24][lanes];
+    for (int N = 0; N < 8; ++N)
+      for (int i = 0; i < 3; ++i) store<double>(values[3 * N + i], at_corner[i][N]);
+    for (int l = 0; l < filled; ++l)
+      for (int k = 0; k < 24; ++k) force(e + l, k) = values[k][l];
+  }
+#else
+  KOKKOS_FORCEINLINE_FUNCTION void bring(int e, int /*filled*/, T (&x)[3][7], T (&u)[3][7]) const {
     for (int i = 0; i < 3; ++i) {
       double place[8], moved[8];
       for (int N = 0; N < 8; ++N) {
@@ -91,10 +145,13 @@ struct ElementTangent {
       modes_of(place, x[i]);
       modes_of(moved, u[i]);
     }
-    stiffness(x, u, at_corner);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void leave(int e, int /*filled*/, const T (&at_corner)[3][8]) const {
     for (int i = 0; i < 3; ++i)
       for (int N = 0; N < 8; ++N) force(e, 3 * N + i) = at_corner[i][N];
   }
+#endif
 };
 
 /// Springs and dashpots: stretch = sum_k s_k . u_k, of nodes or of any other rows of u.

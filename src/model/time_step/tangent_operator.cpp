@@ -31,8 +31,9 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
                        parts[next].first_element == parts[p].first_element + count;
          ++next)
       count += parts[next].element_count;
-    Kokkos::parallel_for("element_tangent", Range(0, count),
-                         ElementTangent{parts[p].first_element, stiffness[p], corners_, position, u, corner_force_});
+    Kokkos::parallel_for(
+        "element_tangent", Range(0, ElementTangent::batches(count)),
+        ElementTangent{parts[p].first_element, count, stiffness[p], corners_, position, u, corner_force_});
   }
   Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});

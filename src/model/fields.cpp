@@ -92,7 +92,7 @@ HostField stress_in(const ElementModel& elements, const NodeArrays& nodes, const
     });
     fetch_elements(FetchElements<S, S>{*lent_copy(slots), *stress, 6, 0, 6, *result});
   }
-  return {6, fetched(result)};
+  return {6, to_vector(*result)};
 }
 
 template <class S>
@@ -106,7 +106,7 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
         fetch_elements(FetchElements<S, double>{*lent_copy(wanted_slots(group, wanted)), group.material.history,
                                                 Material::history_values, Material::plastic_strain, 1, *result});
     });
-  return {1, fetched(result)};
+  return {1, to_vector(*result)};
 }
 
 /// Entries of a list of nodes that a prescribed motion moves.
@@ -149,7 +149,7 @@ std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<N
   std::copy(fields.begin(), fields.end(), fetch.field);
   Kokkos::parallel_for("fetch_nodes", Range(0, count), fetch);
   follow_prescribed(nodal, fields, nodes, *result);
-  return fetched(result);
+  return to_vector(*result);
 }
 
 /// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.

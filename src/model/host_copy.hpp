@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "kernels/support/meanwhile.hpp"
@@ -17,23 +18,35 @@ void copy_in_order(const To& to, const From& from) {
   wait_for(ExecutionSpace());
 }
 
+/// Into the first rows of an array; what lies behind them has no meaning afterwards.
+template <class T>
+void bring(const std::vector<T>& values, const Array<T*>& device) {
+  using Plain = Kokkos::View<const T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  copy_in_order(Kokkos::subview(device, std::make_pair(std::size_t{0}, values.size())),
+                Plain(values.data(), values.size()));
+}
+
+/// Rows of N values.
+template <class T, std::size_t N>
+void bring(const std::vector<std::array<T, N>>& rows, const Array<T* [N]>& device) {
+  const auto host = Kokkos::create_mirror_view(device);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < N; ++k) host(i, k) = rows[i][k];
+  copy_in_order(device, host);
+}
+
 template <class T>
 Array<T*> to_device(const char* label, const std::vector<T>& values) {
-  auto device = unset_array<T*>(label, values.size());
-  const auto host = Kokkos::create_mirror_view(device);
-  for (std::size_t i = 0; i < values.size(); ++i) host(i) = values[i];
-  copy_in_order(device, host);
+  const auto device = unset_array<T*>(label, values.size());
+  bring(values, device);
   return device;
 }
 
 /// Rows of N values.
 template <class T, std::size_t N>
 Array<T* [N]> to_device(const char* label, const std::vector<std::array<T, N>>& rows) {
-  auto device = unset_array<T* [N]>(label, rows.size());
-  const auto host = Kokkos::create_mirror_view(device);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t k = 0; k < N; ++k) host(i, k) = rows[i][k];
-  copy_in_order(device, host);
+  const auto device = unset_array<T* [N]>(label, rows.size());
+  bring(rows, device);
   return device;
 }
 

@@ -43,18 +43,8 @@ class LentArray {
 template <class T>
 LentArray<T*> lent_copy(const std::vector<T>& values) {
   LentArray<T*> copy(values.size());
-  using Plain = Kokkos::View<const T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  copy_in_order(*copy, Plain(values.data(), values.size()));
+  bring(values, *copy);
   return copy;
-}
-
-/// The array's present values.
-template <class T>
-std::vector<T> fetched(const LentArray<T*>& lent) {
-  std::vector<T> values((*lent).extent(0));
-  using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  copy_in_order(Plain(values.data(), values.size()), *lent);
-  return values;
 }
 
 }  // namespace railwave

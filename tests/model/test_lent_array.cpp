@@ -38,6 +38,6 @@ TEST_CASE("a lent copy holds the values, in memory that held others before, too"
   for (int size : {1000, 0, 700, 2000}) {
     std::vector<int> values(size);
     std::iota(values.begin(), values.end(), size);
-    CHECK(fetched(lent_copy(values)) == values);
+    CHECK(to_vector(*lent_copy(values)) == values);
   }
 }

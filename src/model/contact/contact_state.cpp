@@ -58,7 +58,7 @@ std::vector<typename List::Entry> gathered(const char* name, int count, const Li
   const LentArray<int*> next(1);
   Kokkos::deep_copy(ExecutionSpace(), *next, 0);
   Kokkos::parallel_for(name, Range(0, count), GatherEntries<List>{list, *next, *entries});
-  return fetched(entries);
+  return to_vector(*entries);
 }
 
 /// The slave nodes that touch.
@@ -166,15 +166,16 @@ void widen_by(Bounds& box, const std::vector<TouchingSlave>& touching) {
 
 /// One side's wanted nodes, and those of the facets around them where its shape is asked for.
 struct NodesAround {
+  bool shape;
   std::vector<int> nodes;                         ///< model node numbers, the wanted ones first
   std::vector<std::array<int, 4>> facets;         ///< around wanted nodes: positions in `nodes`
   std::vector<std::array<int, 4>> wanted_facets;  ///< of which all corners are wanted
 };
 
-NodesAround nodes_around(const std::vector<int>& surface, const std::vector<std::array<int, 4>>& facets,
-                         const WantedNodes& wanted, bool shape) {
-  NodesAround around;
-  for (const int place : wanted.places) around.nodes.push_back(surface[place]);
+/// @param nodes the wanted ones
+NodesAround nodes_around(const std::vector<int>& nodes, const std::vector<int>& surface,
+                         const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted, bool shape) {
+  NodesAround around{shape, nodes, {}, {}};
   if (!shape) return around;
   std::vector<int> place_of = wanted.place_of;
   for (const auto& facet : facets) {
@@ -219,27 +220,27 @@ void add_geometry(NodesAround around, std::vector<double> position, ContactSide&
 }
 
 /// Where both sides' nodes are and how they move, by one copy from the device, and the shape of those asked for.
-void add_motion(const NodalState& nodal, const Ties& ties, const ContactWish& wish, NodesAround of_slave,
-                NodesAround of_master, ContactSide& slave, ContactSide& master) {
+void add_motion(const NodalState& nodal, const Ties& ties, NodesAround of_slave, NodesAround of_master,
+                ContactSide& slave, ContactSide& master) {
   std::vector<int> nodes = of_slave.nodes;
   nodes.insert(nodes.end(), of_master.nodes.begin(), of_master.nodes.end());
   std::vector<NodeField> wanted{NodeField::displacement, NodeField::velocity};
-  if (wish.shape) wanted.push_back(NodeField::position);
+  if (of_slave.shape || of_master.shape) wanted.push_back(NodeField::position);
   const std::vector<HostField> fields = node_fields(nodal, ties, wanted, nodes);
   const auto values = [](const HostField& field, std::size_t first, std::size_t count) {
     const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(3 * first);
     return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(3 * count));
   };
-  const auto add = [&](NodesAround&& around, std::size_t first, bool shape, ContactSide& side) {
+  const auto add = [&](NodesAround&& around, std::size_t first, ContactSide& side) {
     side.displacement = values(fields[0], first, side.nodes.size());
     side.velocity = values(fields[1], first, side.nodes.size());
-    if (!shape) return;
+    if (!around.shape) return;
     const std::size_t all = around.nodes.size();
     add_geometry(std::move(around), values(fields[2], first, all), side);
   };
   const std::size_t first_of_master = of_slave.nodes.size();
-  add(std::move(of_slave), 0, wish.shape && wish.slave, slave);
-  add(std::move(of_master), first_of_master, wish.shape && wish.master, master);
+  add(std::move(of_slave), 0, slave);
+  add(std::move(of_master), first_of_master, master);
 }
 
 /// Present gap of the far nodes in the window: a step projects the near ones only.
@@ -272,11 +273,11 @@ std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pai
   Kokkos::deep_copy(ExecutionSpace(), *gap, pair.arrays.gap);
   apart_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
                      PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, *gap});
-  if (places.size() == pair.slave_nodes.size()) return fetched(gap);
+  if (places.size() == pair.slave_nodes.size()) return to_vector(*gap);
   const LentArray<double*> result(places.size());
   Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),
                        PickGaps{*gap, *lent_copy(places), *result});
-  return fetched(result);
+  return to_vector(*result);
 }
 
 /// Shares of the master's nodes in a force on the slaves, where segments are curved.
@@ -392,9 +393,11 @@ ContactState contact_state(const NodalState& nodal, const Ties& ties, const std:
   state.friction = pair.arrays.friction;
   state.slave = bare_side(pair.slave_nodes, slave);
   state.master = bare_side(pair.master_nodes, master);
-  add_motion(nodal, ties, wish, nodes_around(pair.slave_nodes, pair.slave_facets, slave, wish.shape && wish.slave),
-             nodes_around(pair.master_nodes, pair.master_segments, master, wish.shape && wish.master), state.slave,
-             state.master);
+  add_motion(
+      nodal, ties,
+      nodes_around(state.slave.nodes, pair.slave_nodes, pair.slave_facets, slave, wish.shape && wish.slave),
+      nodes_around(state.master.nodes, pair.master_nodes, pair.master_segments, master, wish.shape && wish.master),
+      state.slave, state.master);
   add_forces(nodal, pair, touching, slave, master, state.slave, state.master);
   if (half) add_forces(nodal, *half, touching_half, master, slave, state.master, state.slave);
 

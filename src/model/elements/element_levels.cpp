@@ -92,21 +92,23 @@ void level_contacts(const Assembly& assembly, const std::vector<ContactPair>& co
 /// What asks for all forces on its nodes at every step, or moves them itself, has elements of the finest level alone:
 /// multipliers, which look one step ahead; ties, which pass forces on; prescribed motions; and beams, whose stiffness
 /// no element's own step knows.
-std::vector<char> nodes_of_every_step(const Model& model) {
-  std::vector<char> of_every_step(model.assembly.nodes.size(), 0);
+std::vector<char> nodes_of_every_step(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                                      const Ties& ties) {
+  const Assembly& assembly = assembled.assembly;
+  std::vector<char> of_every_step(assembly.nodes.size(), 0);
   const auto mark = [&](const std::vector<int>& nodes) {
     for (int n : nodes) of_every_step[n] = 1;
   };
-  for (const ContactPair& pair : model.contacts) {
+  for (const ContactPair& pair : contacts) {
     if (pair.has_springs()) continue;
     mark(pair.slave_nodes);
     mark(pair.master_nodes);
   }
-  mark(model.ties.masters);
-  for (const TiedPlace& tied : model.ties.places) of_every_step[tied.slave] = 1;
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
-    mark(find_node_set(model.scene, model.assembly, motion, "target", motion.target));
-  for (const Assembly::BeamChain& chain : model.assembly.beam_chains) mark(chain.nodes);
+  mark(ties.masters);
+  for (const TiedPlace& tied : ties.places) of_every_step[tied.slave] = 1;
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
+    mark(find_node_set(assembled.scene, assembly, motion, "target", motion.target));
+  for (const Assembly::BeamChain& chain : assembly.beam_chains) mark(chain.nodes);
   return of_every_step;
 }
 
@@ -156,7 +158,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
                         most_levels - 1);
   }
   level_contacts(assembly, model.contacts, fit);
-  for (int e : elements_at(assembly, nodes_of_every_step(model))) fit[e] = 0;
+  for (int e : elements_at(assembly, nodes_of_every_step(model, model.contacts, model.ties))) fit[e] = 0;
 
   std::vector<int> levels(steps.size(), 0);
   std::vector<char> in(steps.size(), 1);

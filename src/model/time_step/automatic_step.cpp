@@ -71,10 +71,7 @@ Reason obstacle(const Model& model) {
 
 void count_in(const std::vector<ContactPair>& contacts, const std::vector<std::vector<double>>& counted) {
   for (std::size_t p = 0; p < contacts.size(); ++p) {
-    if (contacts[p].counted.extent(0) == 0) continue;
-    const auto host = Kokkos::create_mirror_view(contacts[p].counted);
-    for (std::size_t s = 0; s < counted[p].size(); ++s) host(s) = counted[p][s];
-    copy_in_order(contacts[p].counted, host);
+    if (contacts[p].counted.extent(0) != 0) bring(counted[p], contacts[p].counted);
   }
 }
 

@@ -94,19 +94,11 @@ void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vecto
 
 namespace {
 
-void put_row(const Array<int*>::HostMirror& host, int i, int value) { host(i) = value; }
-void put_row(const Array<double*>::HostMirror& host, int i, double value) { host(i) = value; }
-void put_row(const Array<double* [3]>::HostMirror& host, int i, const Vec3& value) {
-  for (int k = 0; k < 3; ++k) host(i, k) = value[k];
-}
-
-/// Into an array that is as long, or longer.
+/// Into the array that is there, or a longer one.
 template <class T, class Row>
-void bring(const char* label, const std::vector<Row>& rows, Array<T>& array) {
+void bring_into(const char* label, const std::vector<Row>& rows, Array<T>& array) {
   if (array.extent(0) < rows.size()) array = unset_array<T>(label, rows.size() + rows.size() / 4);
-  const auto host = Kokkos::create_mirror_view(array);
-  for (std::size_t i = 0; i < rows.size(); ++i) put_row(host, static_cast<int>(i), rows[i]);
-  copy_in_order(array, host);
+  bring(rows, array);
 }
 
 /// Rows of a list by the nodes that they belong to.
@@ -146,17 +138,17 @@ void SpringCollector::bring_to(TangentSprings& springs) const {
     spring.push_back(spring_of_row[row]);
     share.push_back(share_[row]);
   }
-  bring("tangent spring first", first_, springs.first);
-  bring("tangent spring node", node_, springs.node);
-  bring("tangent spring share", share_, springs.share);
-  bring("tangent spring stiffness", stiffness_, springs.stiffness);
-  bring("tangent spring damping", damping_, springs.damping);
+  bring_into("tangent spring first", first_, springs.first);
+  bring_into("tangent spring node", node_, springs.node);
+  bring_into("tangent spring share", share_, springs.share);
+  bring_into("tangent spring stiffness", stiffness_, springs.stiffness);
+  bring_into("tangent spring damping", damping_, springs.damping);
   if (springs.force.extent(0) < stiffness_.size())
     springs.force = unset_array<double*>("tangent spring force", springs.stiffness.extent(0));
-  bring("nodes with tangent springs", of_nodes.nodes, springs.with_springs);
-  bring("tangent springs of node, first", of_nodes.first, springs.first_of_node);
-  bring("tangent springs of node", spring, springs.spring_of_node);
-  bring("tangent spring share of node", share, springs.share_of_node);
+  bring_into("nodes with tangent springs", of_nodes.nodes, springs.with_springs);
+  bring_into("tangent springs of node, first", of_nodes.first, springs.first_of_node);
+  bring_into("tangent springs of node", spring, springs.spring_of_node);
+  bring_into("tangent spring share of node", share, springs.share_of_node);
 }
 
 }  // namespace railwave

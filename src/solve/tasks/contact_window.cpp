@@ -132,7 +132,7 @@ Motion measure(const NodeArrays& nodes, const ContactPair& pair) {
   Kokkos::parallel_for("master_motion", Range(0, master_blocks),
                        SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout,
                                      *largest, slave_blocks});
-  const std::vector<SquaredMotion> host = fetched(largest);
+  const std::vector<SquaredMotion> host = to_vector(*largest);
   Motion motion;
   for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
     double moved = 0, speed = 0;

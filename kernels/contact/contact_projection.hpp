@@ -31,6 +31,9 @@ struct NearestPlace {
   SegmentPlace place;  ///< within the segment's sides
   double squared;      ///< m2, distance
   double outside;      ///< how far outside the segment the slave's projection lies, in xi or eta; at most 0: inside
+
+  /// Farther than any.
+  KOKKOS_INLINE_FUNCTION static NearestPlace none() { return {{0, 0}, 1e300, 1e300}; }
 };
 
 /// A segment seen from a slave node: small numbers, whose rounding does not disturb the iteration. r(xi, eta) less the

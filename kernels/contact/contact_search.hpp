@@ -19,57 +19,37 @@ struct ContactSearch : ContactProjection {
 
   /// @param start a segment from which the search may begin, best one that is near
   /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the
-  /// surface goes on,
-  ///               nothing is outside
-  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
-    SeenSegment best = see(slave, start);
+  /// surface goes on, nothing is outside
+  /// @param surely the nearest segment is known to be `start`, and its nearest place inside its sides
+  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond,
+                                            bool surely = false) const {
+    int best = start;
+    NearestPlace place = nearest_within(see(slave, start));
     // Mostly it is that one, and then hardly a box is opened.
-    double limit = nearest_within(best).squared;
-    NearestPlace place{{0, 0}, 1e300, 1e300};
-    Vector3 sum{{0, 0, 0}}, weighted{{0, 0, 0}};
-    Vector3 there{{0, 0, 0}};
-    double same_place = 0;  // m
-    int alike = 0;
+    double limit = place.squared;
+    if (!surely) place = NearestPlace::none();
+    Meeting meeting;
     // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one
     // copy does.
-    for (int turn = 0; turn < 2; ++turn) {
+    for (int turn = surely ? 2 : 0; turn < 2; ++turn) {
       visit_boxes(contact.boxes, slave, limit, [&](int i) {
         const SeenSegment seen = see(slave, contact.boxes.order(i));
-        if (surely_beyond(seen, limit)) return true;
-        const NearestPlace found = nearest_within(seen);
-        if (found.squared > limit) return true;
-        bool better = found.squared < place.squared || (found.squared == place.squared && seen.segment < best.segment);
+        NearestPlace found;
+        if (!within(seen, limit, found)) return true;
         if (turn == 1) {
-          const Vector3 aside = seen.point(found.place) - there;
-          if (dot(aside, aside) > same_place * same_place) return true;
-          const Vector3 n = unit_normal(seen, found.place);
-          sum = sum + n;
-          weighted = weighted + corner_angle(seen, found.place) * n;
-          ++alike;
-          const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
-          better = alike == 1 || now < before || (now == before && seen.segment < best.segment);
+          if (meeting.has(seen, found)) meeting.take(seen.segment, found, meeting_normal(seen, found));
+        } else if (nearer(found, seen.segment, place, best)) {
+          best = seen.segment;
+          place = found;
+          limit = found.squared;
         }
-        if (!better) return true;
-        best = seen;
-        place = found;
-        if (turn == 0) limit = found.squared;
         return true;
       });
-      if (turn == 0) {
-        if (!at_side(place.place)) break;
-        there = best.point(place.place);
-        same_place = rounding * (norm(best.across) + norm(best.along));
-        limit = (std::sqrt(place.squared) + same_place) * (std::sqrt(place.squared) + same_place);
-      }
+      if (turn == 1 || !at_side(place.place)) break;
+      meeting.begin(see(slave, best), place);
+      limit = meeting.limit(place);
     }
-    beyond = place.outside;
-    Projection result = at(best, place.place);
-    if (alike > 1 && place.outside > 0 && goes_on(contact.surface(best.segment), nearest_place(best, {0, 0}))) {
-      towards_side(result, weighted);
-      result.at_edge = norm(sum) < smooth_mean * alike;
-      beyond = 0;
-    }
-    return result;
+    return concluded(slave, best, place, meeting, beyond);
   }
 
   /// Whether any segment's box is within a distance, m.
@@ -85,9 +65,13 @@ struct ContactSearch : ContactProjection {
   /// Where a slave is, with segment -1 where it stands beside the surface.
   KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int start) const {
     double beyond;
-    Projection result = nearest(slave, start, beyond);
-    if (beside(result, beyond)) result.segment = -1;
-    return result;
+    const Projection found = nearest(slave, start, beyond);
+    return unless_beside(found, beyond);
+  }
+
+  KOKKOS_INLINE_FUNCTION Projection unless_beside(Projection found, double beyond) const {
+    if (beside(found, beyond)) found.segment = -1;
+    return found;
   }
 
   /// Whether a projection that lay `beyond` its segment does not belong to the surface: too far outside, or outside and
@@ -102,17 +86,105 @@ struct ContactSearch : ContactProjection {
   /// Right at a check.
   KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
     bool found = false;
-    const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
+    const Vector3 normal = normal_at(slave, nearest);
     visit_boxes(contact.boxes, slave, distance * distance, [&](int i) {
-      found = dot(row(contact.boxes.normal, i), normal) < 0.5;
+      found = turned_from(normal, i);
       return !found;
     });
     return found;
   }
 
+  // What the search consists of, for those who take its steps side by side (team_search.hpp).
+
+  KOKKOS_INLINE_FUNCTION Vector3 normal_at(const Vector3& slave, const Projection& nearest) const {
+    return unit_normal(see(slave, nearest.segment), nearest.place);
+  }
+
+  /// Whether a segment, by its place in the order, turns from a normal by 60 degrees or more.
+  KOKKOS_INLINE_FUNCTION bool turned_from(const Vector3& normal, int box) const {
+    return dot(row(contact.boxes.normal, box), normal) < 0.5;
+  }
+
+  /// Whether a segment has a place within a distance, m2. Boxes are as large as the way until the next check, and hold
+  /// slaves of many segments around; to rule a segment out by its corners is far less work than a projection.
+  /// @param found its nearest place, if it has one
+  KOKKOS_INLINE_FUNCTION static bool within(const SeenSegment& seen, double squared, NearestPlace& found) {
+    if (surely_beyond(seen, squared)) return false;
+    found = nearest_within(seen);
+    return !(found.squared > squared);
+  }
+
+  KOKKOS_INLINE_FUNCTION static bool nearer(const NearestPlace& found, int segment, const NearestPlace& best,
+                                            int best_segment) {
+    return found.squared < best.squared || (found.squared == best.squared && segment < best_segment);
+  }
+
+  KOKKOS_INLINE_FUNCTION static bool at_side(const SegmentPlace& p) { return p.outside() > -1e-9; }
+
+  /// A segment's normal at its nearest place, and its weight.
+  struct MeetingNormal {
+    Vector3 normal;
+    double angle;
+  };
+  KOKKOS_INLINE_FUNCTION static MeetingNormal meeting_normal(const SeenSegment& seen, const NearestPlace& found) {
+    return {unit_normal(seen, found.place), corner_angle(seen, found.place)};
+  }
+
+  /// The segments that have the nearest place in common, as at a side or a corner.
+  struct Meeting {
+    Vector3 there{{0, 0, 0}};                     ///< m, the place, less the slave's position
+    double same_place = 0;                        ///< m
+    Vector3 sum{{0, 0, 0}}, weighted{{0, 0, 0}};  ///< of their normals there
+    int count = 0, segment = -1;                  ///< of which the projection is least outside, then the first
+    NearestPlace place = NearestPlace::none();    ///< of that one
+
+    KOKKOS_INLINE_FUNCTION void begin(const SeenSegment& nearest, const NearestPlace& at) {
+      there = nearest.point(at.place);
+      same_place = rounding * (norm(nearest.across) + norm(nearest.along));
+    }
+
+    /// m2, within which they all have their nearest places.
+    KOKKOS_INLINE_FUNCTION double limit(const NearestPlace& nearest) const {
+      const double distance = std::sqrt(nearest.squared) + same_place;
+      return distance * distance;
+    }
+
+    KOKKOS_INLINE_FUNCTION bool has(const SeenSegment& seen, const NearestPlace& found) const {
+      const Vector3 aside = seen.point(found.place) - there;
+      return !(dot(aside, aside) > same_place * same_place);
+    }
+
+    /// Always in the order of their boxes, so that sums are the same.
+    KOKKOS_INLINE_FUNCTION void take(int of, const NearestPlace& found, const MeetingNormal& with) {
+      sum = sum + with.normal;
+      weighted = weighted + with.angle * with.normal;
+      const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
+      if (count++ > 0 && !(now < before || (now == before && of < segment))) return;
+      segment = of;
+      place = found;
+    }
+  };
+
+  /// @param best, place the nearest; @param meeting of a place that is not at a side: nobody
+  KOKKOS_INLINE_FUNCTION Projection concluded(const Vector3& slave, int best, NearestPlace place,
+                                              const Meeting& meeting, double& beyond) const {
+    if (meeting.count > 0) {
+      best = meeting.segment;
+      place = meeting.place;
+    }
+    beyond = place.outside;
+    const SeenSegment seen = see(slave, best);
+    Projection result = at(seen, place.place);
+    if (meeting.count > 1 && place.outside > 0 && goes_on(contact.surface(best), nearest_place(seen, {0, 0}))) {
+      towards_side(result, meeting.weighted);
+      result.at_edge = norm(meeting.sum) < smooth_mean * meeting.count;
+      beyond = 0;
+    }
+    return result;
+  }
+
  private:
-  /// Whether no place of a segment is within a distance, m2, of the slave, whatever rounding does. Boxes are as large
-  /// as the way until the next check, and hold slaves of many segments around; this is far less work than a projection.
+  /// Whether no place of a segment is within a distance, m2, of the slave, whatever rounding does.
   KOKKOS_INLINE_FUNCTION static bool surely_beyond(const SeenSegment& seen, double squared) {
     const double size = dot(seen.across, seen.across) + dot(seen.along, seen.along);
     return seen.least_squared_distance() > (1 + 1e-6) * squared + rounding * rounding * size;
@@ -125,8 +197,6 @@ struct ContactSearch : ContactProjection {
       if (beyond[side] > on_segment && segment.link[side] < 0) return false;
     return true;
   }
-
-  KOKKOS_INLINE_FUNCTION static bool at_side(const SegmentPlace& p) { return p.outside() > -1e-9; }
 
   KOKKOS_INLINE_FUNCTION static Vector3 unit_normal(const SeenSegment& seen, const SegmentPlace& p) {
     const Vector3 n = cross(seen.slope_xi(p.eta), seen.slope_eta(p.xi));

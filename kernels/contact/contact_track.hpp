@@ -61,9 +61,26 @@ struct ContactTrack {
     Verdict verdict = unknown;
     if (touched || near != near_several_sheets) verdict = follow(search, slave, now, beyond);
     const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
-    if (verdict == unknown || begins) now = search.nearest(slave, now.segment, beyond);
+    if (verdict == unknown || begins)
+      now = search.nearest(slave, now.segment, beyond,
+                           begins && verdict == over_segment && surely_nearest(search, slave, now));
     if (search.beside(now, beyond)) now.gap = beside_surface;
     return now;
+  }
+
+  /// Whether a place is so far inside its segment that a search would find the same one. Around a slave that is
+  /// followed the surface turns by less than 60 degrees, so that other segments are no nearer to the place than half of
+  /// its way to the sides.
+  KOKKOS_INLINE_FUNCTION static bool surely_nearest(const ContactProjection& search, const Vector3& slave,
+                                                    const Projection& now) {
+    constexpr double reserve = 16;  // half of the way, twice the depth, and as much again for distorted segments
+    const SeenSegment seen = search.see(slave, now.segment);
+    const Vector3 along_xi = seen.slope_xi(now.place.eta), along_eta = seen.slope_eta(now.place.xi),
+                  area = cross(along_xi, along_eta);
+    const double deep = reserve * reserve * now.gap * now.gap, to_xi = 1 - std::fabs(now.place.xi),
+                 to_eta = 1 - std::fabs(now.place.eta);
+    return to_xi * to_xi * dot(area, area) > deep * dot(along_eta, along_eta) &&
+           to_eta * to_eta * dot(area, area) > deep * dot(along_xi, along_xi);
   }
 };
 

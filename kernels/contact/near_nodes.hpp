@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact/contact_track.hpp"
+#include "kernels/contact/team_search.hpp"
 
 namespace railwave {
 
@@ -21,7 +22,10 @@ struct FindNearNodes {
   Array<const double*> counted;  ///< N/m by slave: spring that is counted in the present step; empty: nobody asks
   Array<int*> uncounted;         ///< one value: near nodes whose spring is stiffer
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+  /// @param by the search, of a thread or a team
+  /// @param writes of a team's threads one
+  template <class Search>
+  KOKKOS_INLINE_FUNCTION void item(const Search& by, const int i, bool writes) const {
     const ContactArrays& contact = search.contact;
     WindowEntry entry = window.entries(i);
     const int s = entry.slave;
@@ -29,18 +33,25 @@ struct FindNearNodes {
     const bool was_near = entry.near != 0;
     entry.near = near_one_sheet;
     const Vector3 slave = row(search.position, entry.node);
-    if (!touching && !thorough &&
-        !search.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
+    if (!touching && !thorough && !by.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
       entry.near = 0;
     } else if (!touching) {
       double beyond;
-      const Projection found = search.nearest(slave, contact.tracked(s), beyond);
-      contact.tracked(s) = found.segment;
-      contact.place(s, 0) = found.place.xi;
-      contact.place(s, 1) = found.place.eta;
+      const Projection found = by.nearest(slave, contact.tracked(s), beyond);
       const bool beside = search.beside(found, beyond);
       const bool penetrating = !beside && found.gap < 0;
       const double far = reach(entry.node, found.segment);
+      const double tolerance =
+          ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
+      // The comparison is false for NaN, so such a node stays near.
+      if (!penetrating && norm(found.offset) > far + tolerance)
+        entry.near = 0;
+      else if (by.several_sheets(slave, found, norm(found.offset) + 2 * far))
+        entry.near = near_several_sheets;
+      if (!writes) return;
+      contact.tracked(s) = found.segment;
+      contact.place(s, 0) = found.place.xi;
+      contact.place(s, 1) = found.place.eta;
       if (!penetrating) {
         contact.gap(s) = beside ? beside_surface : found.gap;
       } else if (first) {
@@ -52,14 +63,8 @@ struct FindNearNodes {
         contact.gap(s) = through ? found.gap : turned_away;
         if (through) Kokkos::atomic_add(&missed(0), 1);
       }
-      const double tolerance =
-          ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
-      // The comparison is false for NaN, so such a node stays near.
-      if (!penetrating && norm(found.offset) > far + tolerance)
-        entry.near = 0;
-      else if (search.several_sheets(slave, found, norm(found.offset) + 2 * far))
-        entry.near = near_several_sheets;
     }
+    if (!writes) return;
     window.entries(i) = entry;
     if (entry.near == 0) return;
     window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;

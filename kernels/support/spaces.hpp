@@ -55,25 +55,6 @@ using Range = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 /// For few threads: few of them a block, so that all of a GPU's multiprocessors share the work.
 using SpreadRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
 
-/// Calls kernel(i) for each i. For few threads whose ways differ much: on a GPU each has a warp of its own, where else
-/// all threads of a warp would wait for each other's.
-template <class Kernel>
-struct OneAWarp {
-  static constexpr bool on_host =
-      Kokkos::SpaceAccessibility<Kokkos::HostSpace, ExecutionSpace::memory_space>::accessible;
-  static constexpr int lanes = on_host ? 1 : 32;
-  Kernel kernel;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    if (i % lanes == 0) kernel(i / lanes);
-  }
-};
-
-/// @param space in whose order
-template <class Kernel>
-void apart_parallel_for(const ExecutionSpace& space, const char* label, int count, const Kernel& kernel) {
-  Kokkos::parallel_for(label, SpreadRange(space, 0, count * OneAWarp<Kernel>::lanes), OneAWarp<Kernel>{kernel});
-}
-
 /// An uninitialised array; for arrays that a kernel or a copy fills whole.
 template <class T, class... Extents>
 Array<T> unset_array(const char* label, Extents... extents) {

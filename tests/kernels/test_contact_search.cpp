@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include "kernels/contact/team_search.hpp"
 #include "tests/kernels/master_surface.hpp"
 
 using namespace railwave;
@@ -22,7 +23,7 @@ struct Answer {
   Vector3 point, normal;
 };
 
-/// Asks on the device: the nearest segment; or one given.
+/// Asks on the device: the nearest segment; or one given. A thread for each question, or a team.
 struct Ask {
   ContactSearch search;
   Array<const double* [3]> slave;
@@ -33,10 +34,11 @@ struct Ask {
     const SeenSegment seen = search.see(x, only);
     return search.at(seen, search.nearest_place(seen, {0, 0}));
   }
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+  template <class Search>
+  KOKKOS_INLINE_FUNCTION void item(const Search& by, const int i, bool writes) const {
     const Vector3 x = row(slave, i);
-    const Projection p = only >= 0 ? beyond_its_sides(x) : search.locate(x, from(i));
-    answers(i) = {p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal};
+    const Projection p = only >= 0 ? beyond_its_sides(x) : by.locate(x, from(i));
+    if (writes) answers(i) = {p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal};
   }
 };
 
@@ -63,6 +65,22 @@ std::vector<Answer> travel(const ContactSearch& search, const std::vector<Point>
   return {host.data(), host.data() + places.size()};
 }
 
+/// A host's team may have as many threads as run.
+int most_threads_of_team() { return on_device ? threads_of_search : std::min(2, ExecutionSpace().concurrency()); }
+
+/// But for how a compiler rounds.
+void check_same(const std::vector<Answer>& some, const std::vector<Answer>& others) {
+  int differ = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Answer &a = some[i], &b = others[i];
+    const auto apart = [](double x, double y) { return !(std::fabs(x - y) <= 1e-12 * (1 + std::fabs(x))); };
+    bool other = a.segment != b.segment || apart(a.xi, b.xi) || apart(a.eta, b.eta) || apart(a.gap, b.gap);
+    for (int k = 0; k < 3; ++k) other = other || apart(a.point[k], b.point[k]) || apart(a.normal[k], b.normal[k]);
+    differ += other ? 1 : 0;
+  }
+  CHECK(differ == 0);
+}
+
 std::vector<Answer> ask(const ContactSearch& search, const std::vector<Question>& questions, int only = -1) {
   std::vector<Point> slaves;
   std::vector<int> from;
@@ -70,11 +88,17 @@ std::vector<Answer> ask(const ContactSearch& search, const std::vector<Question>
     slaves.push_back(q.slave);
     from.push_back(q.start);
   }
-  const Array<Answer*> answers("answers", questions.size());
-  Kokkos::parallel_for("ask", Range(0, questions.size()),
-                       Ask{search, to_device("slaves", slaves), to_device("from", from), only, answers});
-  const auto host = to_host(answers);
-  return {host.data(), host.data() + questions.size()};
+  const int count = static_cast<int>(questions.size());
+  const Array<Answer*> answers("answers", count), of_teams("answers of teams", count);
+  const auto ask_by = [&](const Array<Answer*>& into) {
+    return SearchByTeams<Ask>{{search, to_device("slaves", slaves), to_device("from", from), only, into}};
+  };
+  Kokkos::parallel_for("ask", Range(0, count), ask_by(answers));
+  for (const int threads : {1, most_threads_of_team()}) {
+    Kokkos::parallel_for("ask", search_teams(ExecutionSpace(), count, threads), ask_by(of_teams));
+    check_same(to_vector(answers), to_vector(of_teams));
+  }
+  return to_vector(answers);
 }
 
 /// A point of a bilinear quadrilateral.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kernels/contact/contact_force.hpp"
+#include "kernels/contact/team_search.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/contact/contact_law.hpp"
 #include "model/contact/contact_pair.hpp"
@@ -248,15 +249,16 @@ struct PresentGap {
   ContactSearch search;
   ContactWindow window;
   Array<double*> gap;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+  /// @param by the search, of a thread or a team
+  /// @param writes of a team's threads one
+  template <class Search>
+  KOKKOS_INLINE_FUNCTION void item(const Search& by, const int i, bool writes) const {
     const WindowEntry entry = window.entries(i);
     if (entry.near != 0) return;
-    const ContactArrays& contact = search.contact;
     const int s = entry.slave;
-    const Vector3 slave = row(search.position, entry.node);
-    if (gap(s) == turned_away) return;
-    const Projection found = search.locate(slave, contact.tracked(s));
-    gap(s) = found.segment < 0 ? beside_surface : found.gap;
+    if (search.contact.gap(s) == turned_away) return;
+    const Projection found = by.locate(row(search.position, entry.node), search.contact.tracked(s));
+    if (writes) gap(s) = found.segment < 0 ? beside_surface : found.gap;
   }
 };
 
@@ -271,8 +273,8 @@ struct PickGaps {
 std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pair, const std::vector<int>& places) {
   const LentArray<double*> gap(pair.arrays.slave_count);
   Kokkos::deep_copy(ExecutionSpace(), *gap, pair.arrays.gap);
-  apart_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
-                     PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, *gap});
+  search_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
+                      PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, *gap});
   if (places.size() == pair.slave_nodes.size()) return to_vector(*gap);
   const LentArray<double*> result(places.size());
   Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),

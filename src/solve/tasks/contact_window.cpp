@@ -273,9 +273,9 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   pair.near_checked_at = nodal.step;
   Kokkos::deep_copy(space, pair.window.near_count, 0);
   if (pair.counted.extent(0) != 0) Kokkos::deep_copy(space, pair.uncounted, 0);
-  apart_parallel_for(space, "near_nodes", pair.window.count,
-                     FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
-                                   first || laid_out, pair.missed, pair.counted, pair.uncounted});
+  search_parallel_for(space, "near_nodes", pair.window.count,
+                      FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
+                                    first || laid_out, pair.missed, pair.counted, pair.uncounted});
   if (pair.counted.extent(0) == 0) return;
   Kokkos::deep_copy(space, pair.uncounted_sent, pair.uncounted);
   pair.uncounted_arrives.put(space);

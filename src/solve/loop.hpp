@@ -128,8 +128,7 @@ class TimeLoop {
   /// few while the host is with another member.
   bool busy() const {
     if (asked_) return (sample_ && answered_.ahead() > 0) || memory_.monitor.waits_for_contact_ends();
-    const bool would_wait =
-        memory_.control.may_renew(model_.step) || recording_.would_wait() || sampled_forces_.would_wait();
+    const bool would_wait = memory_.control.would_wait() || recording_.would_wait() || sampled_forces_.would_wait();
     return recording_.graphs_ahead() > (would_wait ? 0 : most_graphs_ahead);
   }
 

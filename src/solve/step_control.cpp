@@ -69,7 +69,7 @@ bool StepControl::interval_over(long step) const {
 bool StepControl::may_renew_estimate(long step) const {
   if (!sizes_.global_estimate || step == renewed_at_) return false;
   if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
-    return can_change(scene_, contacts_) && (interval_over(step) || contact_checked_before(contacts_, step));
+    return can_change(scene_, contacts_) && (interval_over(step) || contact_answers(contacts_, step));
   return scene_.solver.renew_steps > 0 && (interval_over(step) || step % steps_between_checks == 0);
 }
 
@@ -82,6 +82,13 @@ bool StepControl::due() const {
 }
 
 bool StepControl::looks_at_model() const { return deformed_.due(nodal_.step) || may_search(); }
+
+bool StepControl::would_wait() const {
+  const long step = nodal_.step;
+  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
+  return deformed_.due(step) ||
+         (may_renew_estimate(step) && (!automatic || interval_over(step) || !contact_has_answered(contacts_, step)));
+}
 
 bool StepControl::may_search() const {
   // Unless the step is chosen automatically, due() itself looks.

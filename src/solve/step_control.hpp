@@ -42,6 +42,9 @@ class StepControl {
   /// instant, which move nodes already. True: the step from this instant to the next is another one than the last.
   bool renew();
 
+  /// Whether the present step begins with what waits for the device.
+  bool would_wait() const;
+
   /// Whether the step can change at a step to come.
   bool may_renew(long step) const { return deformed_.due(step) || may_renew_estimate(step); }
 

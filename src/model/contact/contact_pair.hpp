@@ -38,6 +38,7 @@ struct ContactPair {
   Milestone uncounted_arrives;                      ///< when it has
   long uncounted_of = -1;                           ///< the step whose check that is; -1: the device has it alone
   long near_checked_at = -1;                        ///< step of the last check
+  long answer_due = -1;                             ///< step at which the host asks for their number: see answer_of()
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes
@@ -45,6 +46,22 @@ struct ContactPair {
   double growth = 1;                                ///< largest factor on that, at any penetration
   double segment_size = 0;                          ///< m, the largest segment's diagonal
   double slave_strength = 0;  ///< N, beyond any force that a face of the slave bears: see contact_quantum()
+
+  /// Steps between two choices of the nodes that can touch.
+  static constexpr long steps_between_near_checks = 64;
+  /// Steps from there to the one at which the host asks whether all of them are counted. Earlier it would wait for the
+  /// device, and the device then for the host. Where nodes are counted, those are chosen that can touch in so many
+  /// steps more.
+  static constexpr long steps_to_answer = 16;
+
+  /// The step at which the host asks for what a check finds: before any node touches that the check before did not see
+  /// coming.
+  long answer_of(long check) const {
+    const bool seen_coming =
+        near_checked_at >= 0 && check > near_checked_at && check <= near_checked_at + steps_between_near_checks;
+    if (!seen_coming) return check + 1;
+    return answer_due > check ? answer_due : check + steps_to_answer;
+  }
 };
 
 }  // namespace railwave

@@ -132,9 +132,28 @@ bool contact_checked_before(const ContactPair& pair, long step) {
   return pair.near_checked_at == step - 1 || std::min(pair.next_near_check, pair.next_check) == step - 1;
 }
 
-bool contact_checked_before(const std::vector<ContactPair>& contacts, long step) {
-  return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
-    return pair.counted.extent(0) != 0 && contact_checked_before(pair, step);
+namespace {
+
+/// Whether the number of a pair's uncounted nodes is asked for at a step, which may be one to come.
+bool answers_at(const ContactPair& pair, long step) {
+  if (pair.counted.extent(0) == 0) return false;
+  return pair.answer_due == step || pair.answer_of(std::min(pair.next_near_check, pair.next_check)) == step;
+}
+
+/// The same of the present step.
+bool answers_now(const ContactPair& pair, long step) { return pair.counted.extent(0) != 0 && pair.answer_due == step; }
+
+}  // namespace
+
+bool contact_answers(const std::vector<ContactPair>& contacts, long step) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [step](const ContactPair& pair) { return answers_at(pair, step); });
+}
+
+bool contact_has_answered(const std::vector<ContactPair>& contacts, long step) {
+  return std::all_of(contacts.begin(), contacts.end(), [step](const ContactPair& pair) {
+    return !answers_now(pair, step) ||
+           (pair.uncounted_of == pair.near_checked_at && pair.uncounted_arrives.ahead() == 0);
   });
 }
 
@@ -152,9 +171,8 @@ int uncounted_nodes(const ContactPair& pair) {
 }  // namespace
 
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step) {
-  return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
-    return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1 && uncounted_nodes(pair) > 0;
-  });
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](const ContactPair& pair) { return answers_now(pair, step) && uncounted_nodes(pair) > 0; });
 }
 
 void choose_step(Model& model) {

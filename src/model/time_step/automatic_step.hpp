@@ -47,10 +47,13 @@ bool can_change(const scene::Scene& scene, const std::vector<ContactPair>& conta
 
 /// Whether a contact is checked in the step before this one, which may be one to come.
 bool contact_checked_before(const ContactPair& pair, long step);
-/// The same of those of which nodes are counted.
-bool contact_checked_before(const std::vector<ContactPair>& contacts, long step);
 
-/// Whether that check has found a node that may touch and was not counted.
+/// Whether the host asks at a step, which may be one to come, for nodes that may touch and were not counted.
+bool contact_answers(const std::vector<ContactPair>& contacts, long step);
+/// Whether it need not wait for the device then; of the present step.
+bool contact_has_answered(const std::vector<ContactPair>& contacts, long step);
+
+/// Whether there are any; of the present step.
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step);
 
 /// For a state that was taken up: what that state's run had chosen, whatever this one would.

@@ -23,6 +23,7 @@ void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   archive.value(of + "next_look", pair.next_check);
   archive.value(of + "next_near_look", pair.next_near_check);
   archive.value(of + "near_checked_at", pair.near_checked_at);
+  archive.value(of + "answer_due", pair.answer_due);
   archive.value(of + "layouts", pair.layouts);
   archive.value(of + "looks", pair.checks);
 }

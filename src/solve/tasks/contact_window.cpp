@@ -18,8 +18,8 @@ constexpr double margin_in_segments = 3;
 constexpr long most_steps_between_checks = 512;
 /// A layout is made early rather than followed by another check so soon.
 constexpr long least_steps_between_checks = 16;
-/// Steps between two choices of the nodes that can touch.
-constexpr long steps_between_near_checks = 64, steps_between_near_checks_settling = 16;
+/// Steps between two choices of the nodes that can touch; of a run ContactPair has them.
+constexpr long steps_between_near_checks_settling = 16;
 
 /// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
 /// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
@@ -260,8 +260,10 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   const bool near_check = check || nodal.step >= pair.next_near_check;
   if (!near_check && pair.boxed) return;
   const double sudden = sudden_motion(scene, pair, step, kind);
-  const long steps = settling ? steps_between_near_checks_settling : steps_between_near_checks;
-  const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
+  const bool counts = pair.counted.extent(0) != 0;
+  const long steps = settling ? steps_between_near_checks_settling : ContactPair::steps_between_near_checks,
+             ahead = counts ? steps + ContactPair::steps_to_answer : steps;
+  const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;
   const bool first = pair.layouts == 0 || settling;
   const bool laid_out = check && renew_window_between(space, nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
@@ -269,14 +271,16 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   pair.boxed = true;
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_check) return;
-  pair.next_near_check = nodal.step + steps;
+  // At multiples, as what else is due every so many steps: so graphs of steps are cut in fewer places.
+  pair.next_near_check = nodal.step - nodal.step % steps + steps;
+  pair.answer_due = pair.answer_of(nodal.step);
   pair.near_checked_at = nodal.step;
   Kokkos::deep_copy(space, pair.window.near_count, 0);
-  if (pair.counted.extent(0) != 0) Kokkos::deep_copy(space, pair.uncounted, 0);
+  if (counts) Kokkos::deep_copy(space, pair.uncounted, 0);
   search_parallel_for(space, "near_nodes", pair.window.count,
                       FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
                                     first || laid_out, pair.missed, pair.counted, pair.uncounted});
-  if (pair.counted.extent(0) == 0) return;
+  if (!counts) return;
   Kokkos::deep_copy(space, pair.uncounted_sent, pair.uncounted);
   pair.uncounted_arrives.put(space);
   pair.uncounted_of = nodal.step;
@@ -297,7 +301,7 @@ std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts)
       lines.push_back(fmt::format(
           "contact {}: {} nodes met the master faster than was predicted, so that their forces began up to {} "
           "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
-          pair.contact->name, late, steps_between_near_checks));
+          pair.contact->name, late, ContactPair::steps_between_near_checks));
   }
   return lines;
 }

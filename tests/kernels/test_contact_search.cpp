@@ -21,6 +21,7 @@ struct Answer {
   int segment;
   double xi, eta, gap;
   Vector3 point, normal;
+  bool comes_within = false, several_sheets = false;  ///< a short way and, of what is found, its distance twice
 };
 
 /// Asks on the device: the nearest segment; or one given. A thread for each question, or a team.
@@ -38,7 +39,10 @@ struct Ask {
   KOKKOS_INLINE_FUNCTION void item(const Search& by, const int i, bool writes) const {
     const Vector3 x = row(slave, i);
     const Projection p = only >= 0 ? beyond_its_sides(x) : by.locate(x, from(i));
-    if (writes) answers(i) = {p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal};
+    const bool comes_within = by.comes_within(x, 0.05),
+               several_sheets = p.segment >= 0 && by.several_sheets(x, p, 2 * norm(p.offset));
+    if (!writes) return;
+    answers(i) = {p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal, comes_within, several_sheets};
   }
 };
 
@@ -74,7 +78,8 @@ void check_same(const std::vector<Answer>& some, const std::vector<Answer>& othe
   for (std::size_t i = 0; i < some.size(); ++i) {
     const Answer &a = some[i], &b = others[i];
     const auto apart = [](double x, double y) { return !(std::fabs(x - y) <= 1e-12 * (1 + std::fabs(x))); };
-    bool other = a.segment != b.segment || apart(a.xi, b.xi) || apart(a.eta, b.eta) || apart(a.gap, b.gap);
+    bool other = a.segment != b.segment || a.comes_within != b.comes_within || a.several_sheets != b.several_sheets ||
+                 apart(a.xi, b.xi) || apart(a.eta, b.eta) || apart(a.gap, b.gap);
     for (int k = 0; k < 3; ++k) other = other || apart(a.point[k], b.point[k]) || apart(a.normal[k], b.normal[k]);
     differ += other ? 1 : 0;
   }

@@ -143,6 +143,15 @@ bool answers_at(const ContactPair& pair, long step) {
 /// The same of the present step.
 bool answers_now(const ContactPair& pair, long step) { return pair.counted.extent(0) != 0 && pair.answer_due == step; }
 
+/// Nodes that can touch by a pair's last check and are not counted. The device may have launches to do behind that
+/// check: none of them is waited for.
+int uncounted_nodes(const ContactPair& pair) {
+  // A state that was taken up has the number, but it was not sent.
+  if (pair.uncounted_of != pair.near_checked_at) return to_host(pair.uncounted)(0);
+  pair.uncounted_arrives.wait();
+  return pair.uncounted_sent(0);
+}
+
 }  // namespace
 
 bool contact_answers(const std::vector<ContactPair>& contacts, long step) {
@@ -156,19 +165,6 @@ bool contact_has_answered(const std::vector<ContactPair>& contacts, long step) {
            (pair.uncounted_of == pair.near_checked_at && pair.uncounted_arrives.ahead() == 0);
   });
 }
-
-namespace {
-
-/// Nodes that can touch by a pair's last check and are not counted. The device may have launches to do behind that
-/// check: none of them is waited for.
-int uncounted_nodes(const ContactPair& pair) {
-  // A state that was taken up has the number, but it was not sent.
-  if (pair.uncounted_of != pair.near_checked_at) return to_host(pair.uncounted)(0);
-  pair.uncounted_arrives.wait();
-  return pair.uncounted_sent(0);
-}
-
-}  // namespace
 
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step) {
   return std::any_of(contacts.begin(), contacts.end(),

@@ -33,8 +33,7 @@ StepControl::StepControl(Model& model, DeformedElements elements, SampledRanks* 
       sizes_(model),
       deformed_(model, std::move(elements), others) {
   // Settled and set in motion, the bodies may be about to touch elsewhere than as they were placed.
-  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
-  if (sizes_.global_estimate && (automatic ? has_contact_springs(contacts_) : !contacts_.empty())) {
+  if (sizes_.global_estimate && (automatic() ? has_contact_springs(contacts_) : !contacts_.empty())) {
     find_step();
     plan();
     ++renewals_;
@@ -54,12 +53,14 @@ bool StepControl::touched_unseen() const {
 
 void StepControl::find_step() {
   sizes_.stable_step.deformed = 0;
-  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
+  if (automatic())
     renew_automatic_step(scene_, contacts_, nodal_.time, nodal_.step, sizes_);
   else
     renew_global_step(scene_, contacts_, nodal_.time, sizes_);
   deformed_.estimated();
 }
+
+bool StepControl::automatic() const { return scene_.solver.step_estimate == scene::StepEstimate::automatic; }
 
 bool StepControl::interval_over(long step) const {
   const int every = scene_.solver.renew_steps;
@@ -68,15 +69,14 @@ bool StepControl::interval_over(long step) const {
 
 bool StepControl::may_renew_estimate(long step) const {
   if (!sizes_.global_estimate || step == renewed_at_) return false;
-  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
-    return can_change(scene_, contacts_) && (interval_over(step) || contact_answers(contacts_, step));
+  if (automatic()) return can_change(scene_, contacts_) && (interval_over(step) || contact_answers(contacts_, step));
   return scene_.solver.renew_steps > 0 && (interval_over(step) || step % steps_between_checks == 0);
 }
 
 bool StepControl::due() const {
   const long step = nodal_.step;
   if (!may_renew_estimate(step)) return false;
-  if (scene_.solver.step_estimate != scene::StepEstimate::automatic) return interval_over(step) || touched_unseen();
+  if (!automatic()) return interval_over(step) || touched_unseen();
   return may_touch_uncounted(contacts_, step) ||
          (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
 }
@@ -85,15 +85,13 @@ bool StepControl::looks_at_model() const { return deformed_.due(nodal_.step) || 
 
 bool StepControl::would_wait() const {
   const long step = nodal_.step;
-  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
   return deformed_.due(step) ||
-         (may_renew_estimate(step) && (!automatic || interval_over(step) || !contact_has_answered(contacts_, step)));
+         (may_renew_estimate(step) && (!automatic() || interval_over(step) || !contact_has_answered(contacts_, step)));
 }
 
 bool StepControl::may_search() const {
   // Unless the step is chosen automatically, due() itself looks.
-  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
-  return automatic ? due() : may_renew_estimate(nodal_.step);
+  return automatic() ? due() : may_renew_estimate(nodal_.step);
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.
@@ -133,8 +131,7 @@ void StepControl::move_end() {
 }
 
 void StepControl::follow_elements() {
-  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
-  if (automatic && sizes_.global_estimate && deformed_.by_elements()) {
+  if (automatic() && sizes_.global_estimate && deformed_.by_elements()) {
     leave_whole_scene(StepChoice::Reason::deforms, sizes_);
     deformed_.estimated();
   }

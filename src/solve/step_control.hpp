@@ -70,6 +70,7 @@ class StepControl {
   }
 
  private:
+  bool automatic() const;  ///< the step chooses itself
   bool interval_over(long step) const;
   bool may_renew_estimate(long step) const;
   void follow_elements();

@@ -97,6 +97,14 @@ struct NodalForce {
   PartialForces partial;
   ExternalForceSum external;
 
+  /// The same for a kernel that is compiled for one number type of the partial forces: it does not ask at each.
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION NodalForce with_partials_in() const {
+    NodalForce known = *this;
+    known.partial.single_precision = sizeof(S) == sizeof(float);
+    return known;
+  }
+
   KOKKOS_INLINE_FUNCTION Vector3 external_force(int n) const {
     const int r = nodes.external_row(n);
     return r >= 0 ? external.force(r) : Vector3{{0, 0, 0}};

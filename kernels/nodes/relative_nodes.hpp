@@ -103,6 +103,24 @@ struct RelativeSharedUpdate {
   }
 };
 
+/// PlainNodeUpdate for nodes in single precision.
+struct RelativePlainUpdate {
+  NodalForce force;
+  Array<const SharedNode*> shared;
+  RelativeAdvance advance;
+  Array<const FrameArm*> arm;  ///< of each shared node
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const NodalForce sum = force.with_partials_in<float>();
+    const SharedNode node = shared(i);
+    const FrameArm own = arm(i);
+    const Vector3 f = sum.with_rows({{0, 0, 0}}, node, sum.first_rows(node));
+    float a[3];
+    advance.acceleration(advance.nodes.node(node.node).inverse_mass, f, a);
+    advance.move(node.node, a, advance.nodes.frame(own.frame).change_at_start, own.x);
+  }
+};
+
 /// Nodes of a frame, or of these the ones that a rank has.
 struct FrameNodes {
   int first;

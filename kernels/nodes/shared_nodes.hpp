@@ -92,4 +92,23 @@ struct SharedNodeUpdate {
   }
 };
 
+/// The same for nodes that nothing but elements and gravity concerns, on a GPU. Without what is asked for special ones
+/// a thread needs half the registers, so that twice as many wait for memory at a time.
+/// @tparam S number type of the partial forces
+template <class S>
+struct PlainNodeUpdate {
+  NodalForce force;
+  Array<const SharedNode*> shared;
+  NodeAdvance advance;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const NodalForce sum = force.with_partials_in<S>();
+    const SharedNode node = shared(i);
+    const double inverse_mass = 1.0 / advance.nodes.mass(node.node);
+    const Vector3 x = row(advance.nodes.position, node.node), v = row(advance.nodes.velocity, node.node);
+    const Vector3 f = sum.with_rows({{0, 0, 0}}, node, sum.first_rows(node));
+    advance.move(node.node, advance.acceleration(inverse_mass, f), x, v);
+  }
+};
+
 }  // namespace railwave

@@ -24,6 +24,7 @@ struct NodalState {
   SharedNodes shared;  ///< those that no block advances by itself
   int early_shared =
       0;  ///< so many of them, the first, wait for nothing but elements and loads: see order_shared_nodes()
+  bool plain_apart = false;  ///< whether those before shared.first_special have a launch of their own
   ElementParts parts;     ///< in which an advancing step computes the elements
   Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;

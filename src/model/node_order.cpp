@@ -42,12 +42,17 @@ Array<SpecialNode*> special_nodes(const SharedOnHost& shared, const NodalState& 
   return to_device("special nodes", special);
 }
 
+/// So many plain nodes have room on a GPU at a time as threads of the special ones' launch, which takes less then than
+/// two.
+constexpr int most_with_others = 1 << 16;
+
 }  // namespace
 
 void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
                         const std::vector<PrescribedSet>& prescribed, const Ties& ties, const NonReflectingEnds& ends,
                         bool in_parts, NodalState& nodal) {
   nodal.early_shared = 0;
+  nodal.plain_apart = false;
   nodal.parts = {};
   if (nodal.subcycling.levels > 1) return;  // they are in order of levels, and take no notice of special ones
   std::vector<char> late(nodal.nodes.count, 0);
@@ -71,6 +76,7 @@ void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vect
   const int first_late = move_behind(shared, nodal.shared.first_special,
                                      [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
   if (on_device && any_but_ends) nodal.early_shared = first_late;
+  nodal.plain_apart = on_device && nodal.shared.first_special > most_with_others;
   if (in_parts) {
     std::vector<char> special(nodal.nodes.count, 0);
     for (std::size_t i = nodal.shared.first_special; i < shared.extent(0); ++i)

@@ -8,10 +8,12 @@
 namespace railwave {
 namespace {
 
-/// A member's tasks come one after the other: nothing is launched in parts so that others might go on beside.
+/// A member's tasks come one after the other: nothing is launched in parts so that others might go on beside. What
+/// leaves members more room is a launch of its own.
 void launch_whole(Model& model) {
   model.parts = {};
   model.early_shared = 0;
+  model.plain_apart = on_device;
 }
 
 /// Steps, graphs or halves of steps that a member takes before the next one's turn.

@@ -102,8 +102,9 @@ struct OwnForceLanes {
 
 /// Lanes of Stage::motion.
 struct MotionLanes {
-  /// And one more for each prescribed motion whose nodes no multipliers push. Those with common nodes share one.
-  static constexpr int contact = 0, early_nodes = 1, rotations = 2, prescribed = 3;
+  /// And one more for each prescribed motion whose nodes no multipliers push. Those with common nodes share one. Of the
+  /// early nodes plain ones and others have a lane each.
+  static constexpr int contact = 0, early_nodes = 1, rotations = 3, prescribed = 4;
 };
 
 /// Puts tasks into a lane of a stage.

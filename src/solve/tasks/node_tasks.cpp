@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "kernels/nodes/shared_nodes.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/block_launch.hpp"
@@ -48,22 +50,38 @@ SharedForces shared_forces(const NodalState& nodal, const LoadModel& loads, bool
   return {nodal.acceleration(), nodal.shared, row_loads(nodal, loads, instant.elapsed), rows_are_due};
 }
 
-Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due,
-                          const SharedRange& range) {
+/// Shared nodes from `range.begin` to `range.end`, with all that can concern them.
+Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const SharedRange& range) {
   return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
-            Kokkos::parallel_for(
-                "shared_nodes", Range(instant.space(), range.begin, range.end),
-                RelativeSharedUpdate{shared_forces(nodal, loads, rows_are_due, instant),
-                                     relative_advance(nodal, {}, instant.step), nodal.relative.shared_arm});
+            const Range nodes(instant.space(), range.begin, range.end);
+            const SharedForces forces = shared_forces(nodal, loads, rows_are_due, instant);
+            if (nodal.relative.active())
+              Kokkos::parallel_for(
+                  "shared_nodes", nodes,
+                  RelativeSharedUpdate{forces, relative_advance(nodal, {}, instant.step), nodal.relative.shared_arm});
+            else
+              Kokkos::parallel_for("shared_nodes", nodes, SharedNodeUpdate{forces, node_advance(nodal, instant.step)});
           }};
 }
 
-Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const SharedRange& range) {
-  return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
-            Kokkos::parallel_for("shared_nodes", Range(instant.space(), range.begin, range.end),
-                                 SharedNodeUpdate{shared_forces(nodal, loads, rows_are_due, instant),
-                                                  node_advance(nodal, instant.step)});
-          }};
+/// Those that nothing but elements concerns.
+Task plain_shared_task(const NodalState& nodal, const SharedRange& range) {
+  return {
+      range.name, "f to j", [&nodal, range](const Instant& instant) {
+        using Waiting = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<128, 10>, AsArgument>;
+        const Waiting nodes(instant.space(), range.begin, range.end);
+        const NodalForce force = nodal.acceleration().force;
+        if (nodal.relative.active())
+          Kokkos::parallel_for("plain_nodes", nodes,
+                               RelativePlainUpdate{force, nodal.shared.nodes, relative_advance(nodal, {}, instant.step),
+                                                   nodal.relative.shared_arm});
+        else if (nodal.partial.single_precision)
+          Kokkos::parallel_for("plain_nodes", nodes,
+                               PlainNodeUpdate<float>{force, nodal.shared.nodes, node_advance(nodal, instant.step)});
+        else
+          Kokkos::parallel_for("plain_nodes", nodes,
+                               PlainNodeUpdate<double>{force, nodal.shared.nodes, node_advance(nodal, instant.step)});
+      }};
 }
 
 Task node_task(const NodalState& nodal) {
@@ -134,8 +152,13 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
   if (!inner_have_moved && !relative) return placed({node_task(nodal)}, Stage::other_motion, 0);
   if (!inner_have_moved) append(tasks, placed({relative_blocks_task(nodal, groups)}, Stage::other_motion, 0));
   const auto add = [&](const SharedRange& range, Stage stage, int lane) {
-    append(tasks,
-           placed({(relative ? relative_shared_task : shared_task)(nodal, loads, along.sets, range)}, stage, lane));
+    const int plain = on_device ? std::clamp(nodal.shared.first_special, range.begin, range.end) : range.begin;
+    const bool apart = plain == range.end || nodal.plain_apart;
+    const int others = apart ? plain : range.begin;
+    if (others < range.end)
+      append(tasks, placed({shared_task(nodal, loads, along.sets, {range.name, others, range.end})}, stage, lane + 1));
+    if (range.begin < others)
+      append(tasks, placed({plain_shared_task(nodal, {range.name + ", plain", range.begin, others})}, stage, lane));
   };
   const bool divided = inner_have_moved && early_nodes != EarlyNodes::with_others;
   const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = divided ? nodal.early_shared : 0;
@@ -149,9 +172,12 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
     return tasks;
   }
   if (early > 0) {
+    const std::size_t before = tasks.size();
     add({name + ", beside what others wait for", 0, early}, Stage::motion, MotionLanes::early_nodes);
-    tasks.back().bulk = true;
-    if (early_nodes == EarlyNodes::apart) tasks.back().begins = Begins::after_own_forces;
+    for (std::size_t t = before; t < tasks.size(); ++t) {
+      tasks[t].bulk = true;
+      if (early_nodes == EarlyNodes::apart) tasks[t].begins = Begins::after_own_forces;
+    }
   }
   add({name, early, all}, Stage::other_motion, 0);
   return tasks;

@@ -203,6 +203,9 @@ struct StepRecording::Recordings {
     return in_parts && task.stage == Stage::own_forces && task.part == 0 ? 1 : 0;
   }
 
+  /// Whether elements of a later part would find room beside the first, which others wait for, and slow it.
+  static bool leaves_room(const Task& task) { return task.part > 0 && !task.bulk; }
+
   /// What the next step begins after.
   struct Ends {
     LaunchGraph::Node tasks;  ///< for all but elements
@@ -216,8 +219,9 @@ struct StepRecording::Recordings {
 
   /// A stage's lanes begin when all lanes of the stage before are done. Where elements come in parts, what concerns the
   /// first part's nodes goes on beside the second, and loads and contact of the next step beside the second part and
-  /// its nodes, of which they read none. In a space of its own one task comes after the other: what the others of that
-  /// device launch fills it, and a graph with lanes takes the host 20 times as long to launch.
+  /// its nodes, of which they read none. A second part that finds room beside the first waits for it. In a space of its
+  /// own one task comes after the other: what the others of that device launch fills it, and a graph with lanes takes
+  /// the host 20 times as long to launch.
   Ends record_step(LaunchGraph& graph, Ends ready, const Instant& instant) const {
     if (order.own()) {
       ready.tasks = graph.after(ready.tasks, 0, [this, &instant] { run_recordable(instant); });
@@ -243,7 +247,10 @@ struct StepRecording::Recordings {
       bool all_in_order = true;
       for (const auto& [lane, tasks] : lanes) {
         const bool of_elements = of_forces && lane >= OwnForceLanes::elements;
-        const auto& begin = of_elements || stage < Stage::own_forces ? ready.all : ready.tasks;
+        const bool after_first = of_elements && leaves_room(*tasks.front()) && !element_ends.empty();
+        const LaunchGraph::Node begin = after_first                                ? LaunchGraph::joined(element_ends)
+                                        : of_elements || stage < Stage::own_forces ? ready.all
+                                                                                   : ready.tasks;
         const LaunchGraph::Node last = record_lane(graph, {begin, beside_loads}, tasks, done, instant);
         done.emplace(lane, last);
         all_ends.push_back(last);

@@ -25,8 +25,8 @@ struct NodalState {
   int early_shared =
       0;  ///< so many of them, the first, wait for nothing but elements and loads: see order_shared_nodes()
   bool plain_apart = false;  ///< whether those before shared.first_special have a launch of their own
-  ElementParts parts;     ///< in which an advancing step computes the elements
-  Array<int*> own_nodes;  ///< those that a rank moves; empty: all
+  ElementParts parts;        ///< in which an advancing step computes the elements
+  Array<int*> own_nodes;     ///< those that a rank moves; empty: all
   ExternalForces external;
   FreeNodeArrays free_nodes;  ///< of contacts by multipliers; empty without
   std::vector<PrescribedSet> prescribed;

@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "solve/graph_edges.hpp"
+#include "solve/launch_graph.hpp"
 
 using railwave::fewest_edges;
 using railwave::GraphEdges;

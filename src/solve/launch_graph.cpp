@@ -1,4 +1,4 @@
-#include "solve/graph_edges.hpp"
+#include "solve/launch_graph.hpp"
 
 #include <algorithm>
 #include <functional>

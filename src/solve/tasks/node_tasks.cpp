@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "kernels/nodes/shared_nodes.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
@@ -151,34 +152,32 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
   const bool relative = nodal.relative.active();
   if (!inner_have_moved && !relative) return placed({node_task(nodal)}, Stage::other_motion, 0);
   if (!inner_have_moved) append(tasks, placed({relative_blocks_task(nodal, groups)}, Stage::other_motion, 0));
-  const auto add = [&](const SharedRange& range, Stage stage, int lane) {
-    const int plain = on_device ? std::clamp(nodal.shared.first_special, range.begin, range.end) : range.begin;
-    const bool apart = plain == range.end || nodal.plain_apart;
-    const int others = apart ? plain : range.begin;
-    if (others < range.end)
-      append(tasks, placed({shared_task(nodal, loads, along.sets, {range.name, others, range.end})}, stage, lane + 1));
-    if (range.begin < others)
-      append(tasks, placed({plain_shared_task(nodal, {range.name + ", plain", range.begin, others})}, stage, lane));
+  // Plain nodes and others in lanes of their own.
+  const auto add = [&](const SharedRange& range, Stage stage, int lane, Begins begins = Begins::in_order) {
+    const int first_special = std::clamp(nodal.shared.first_special, range.begin, range.end);
+    const bool plain_apart = on_device && (first_special == range.end || nodal.plain_apart);
+    const int others = plain_apart ? first_special : range.begin;
+    const auto add_part = [&](Task task, int lane_of_part) {
+      task.bulk = stage == Stage::motion;
+      task.begins = begins;
+      append(tasks, placed({std::move(task)}, stage, lane_of_part));
+    };
+    if (others < range.end) add_part(shared_task(nodal, loads, along.sets, {range.name, others, range.end}), lane + 1);
+    if (range.begin < others) add_part(plain_shared_task(nodal, {range.name + ", plain", range.begin, others}), lane);
   };
   const bool divided = inner_have_moved && early_nodes != EarlyNodes::with_others;
   const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = divided ? nodal.early_shared : 0;
   const std::string name = "nodes that element blocks share";
   if (divided && nodal.parts.group >= 0) {
     const int plain = nodal.shared.first_special;
-    add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, MotionLanes::early_nodes);
-    tasks.back().bulk = true;
-    tasks.back().begins = Begins::after_elements;
+    add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, MotionLanes::early_nodes,
+        Begins::after_elements);
     add({name + ", that others concern", plain, all}, Stage::other_motion, 0);
     return tasks;
   }
-  if (early > 0) {
-    const std::size_t before = tasks.size();
-    add({name + ", beside what others wait for", 0, early}, Stage::motion, MotionLanes::early_nodes);
-    for (std::size_t t = before; t < tasks.size(); ++t) {
-      tasks[t].bulk = true;
-      if (early_nodes == EarlyNodes::apart) tasks[t].begins = Begins::after_own_forces;
-    }
-  }
+  if (early > 0)
+    add({name + ", beside what others wait for", 0, early}, Stage::motion, MotionLanes::early_nodes,
+        early_nodes == EarlyNodes::apart ? Begins::after_own_forces : Begins::in_order);
   add({name, early, all}, Stage::other_motion, 0);
   return tasks;
 }

@@ -69,6 +69,7 @@ Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_
 Task plain_shared_task(const NodalState& nodal, const SharedRange& range) {
   return {
       range.name, "f to j", [&nodal, range](const Instant& instant) {
+        // Registers for ten blocks of a multiprocessor: what these threads do is wait for memory.
         using Waiting = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<128, 10>, AsArgument>;
         const Waiting nodes(instant.space(), range.begin, range.end);
         const NodalForce force = nodal.acceleration().force;

@@ -66,8 +66,13 @@ void BackgroundWriter::fields(const FieldSource& source, double time, long step,
   if (!leaves_free_memory(2 * selection->bytes() + memory_margin))
     throw TooLittleMemory(2 * selection->bytes() + memory_margin);
   const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection);
-  thread_.add(alone([this, snapshot, time, step, choice] { writer_->fields(*snapshot, time, step, choice); }),
-              size_of_fields);
+  thread_.add(
+      [this, snapshot, time, step, choice] {
+        if (!writer_->has_sections()) alone([this] { writer_->make_sections(); })();
+        const PackedRows packed = writer_->pack(*snapshot, choice);
+        alone([&] { writer_->fields(*snapshot, time, step, choice, packed); })();
+      },
+      size_of_fields);
 }
 
 void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {

@@ -174,7 +174,7 @@ void ResultsWriter::history(const HistorySample& sample) {
     flush();
 }
 
-void ResultsWriter::create_sections() {
+void ResultsWriter::make_sections() {
   const hdf5::Group root = file_.root();
   for (const OutputSet& set : description_.sets)
     field_sections_.emplace_back(root.group(set.is_beam() ? "beams" : "fields"), set, description_.fields,
@@ -239,12 +239,23 @@ void ResultsWriter::describe_anew() {
   throw std::runtime_error(fmt::format("{} was removed each time it was written", xdmf_path(path_)));
 }
 
-void ResultsWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice) {
-  if (!has_sections_) create_sections();
+PackedRows ResultsWriter::pack(const FieldSource& source, const OutputChoice& choice) const {
+  PackedRows rows;
   for (std::size_t s = 0; s < field_sections_.size(); ++s)
-    if (choice.sets[s]) field_sections_[s].add_values(source, step);
+    if (choice.sets[s]) field_sections_[s].add_rows(source, rows);
   for (std::size_t c = 0; c < contact_sections_.size(); ++c)
-    if (choice.contacts[c]) contact_sections_[c].add_values(source, step);
+    if (choice.contacts[c]) contact_sections_[c].add_rows(source, rows);
+  if (threads_) rows.pack(threads_());
+  return rows;
+}
+
+void ResultsWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice,
+                           const PackedRows& packed) {
+  if (!has_sections_) make_sections();
+  for (std::size_t s = 0; s < field_sections_.size(); ++s)
+    if (choice.sets[s]) field_sections_[s].add_values(source, step, packed);
+  for (std::size_t c = 0; c < contact_sections_.size(); ++c)
+    if (choice.contacts[c]) contact_sections_[c].add_values(source, step, packed);
   pending_.push_back({time, choice});
   if (flush_is_due()) flush();
 }

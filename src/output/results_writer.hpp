@@ -69,14 +69,25 @@ class ResultsWriter {
 
   /// What is written from now on is compressed so, see hdf5::File::compress_on(). The sections that are made with the
   /// first output have it.
-  void compress_on(hdf5::ThreadCount threads) { file_.compress_on(std::move(threads)); }
+  void compress_on(hdf5::ThreadCount threads) {
+    threads_ = threads;
+    file_.compress_on(std::move(threads));
+  }
 
   /// How far from equilibrium the run begins: sum of |unbalanced nodal force| over that of applied and contact forces,
   /// and the evaluations of the forces that took; 0 for a state that was there already.
   void settled(double unbalance, int evaluations);
   void history(const HistorySample& sample);
+  /// Makes the sections of the fields, as the first fields() does.
+  void make_sections();
+  bool has_sections() const { return has_sections_; }
+  /// Compresses what it can of an output without HDF5, which other threads may use meanwhile; with make_sections()
+  /// before.
+  PackedRows pack(const FieldSource& source, const OutputChoice& choice) const;
   /// @param choice of the sets and contacts that are written
-  void fields(const FieldSource& source, double time, long step, const OutputChoice& choice);
+  /// @param packed of this output
+  void fields(const FieldSource& source, double time, long step, const OutputChoice& choice,
+              const PackedRows& packed = {});
   void fields(const FieldSource& source, double time, long step) {
     fields(source, time, step, OutputChoice::all(description_.sets.size(), description_.contacts.size()));
   }
@@ -94,7 +105,6 @@ class ResultsWriter {
   void extend_file(const ResultsSoFar& so_far);
   /// So many entries of a group; throws where there are fewer.
   void leave(const hdf5::Group& group, const std::string& name, hsize_t entries) const;
-  void create_sections();
   /// @return false: somebody has removed the XDMF file
   bool report_earlier_times();
   bool add_to_xdmf(double time, const OutputChoice& choice);
@@ -122,6 +132,7 @@ class ResultsWriter {
   std::size_t outputs_ = 0;                                 ///< in the XDMF file
   std::vector<std::size_t> set_outputs_, contact_outputs_;  ///< likewise of each
   bool has_sections_ = false;
+  hdf5::ThreadCount threads_;
   std::string run_;        ///< a name of this run's own
   bool in_place_ = false;  ///< whether the file has taken its own name
   std::chrono::steady_clock::time_point last_flush_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "output/fields/packed_rows.hpp"
 #include "output/file_kind.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_chunks.hpp"
@@ -142,6 +143,68 @@ TEST_CASE("arrays that grow have HDF5's own chunks") {
   CHECK(check_rows<signed char>({300001}) > 0);
   CHECK(check_rows<unsigned char>({300001}) > 0);
   CHECK(check_rows<double>({5, 30000, 2}) > 0);
+}
+
+TEST_CASE("rows that are compressed before HDF5 is asked for have its own chunks") {
+  const auto check_packed = [](const hdf5::Shape& row, auto in_file) {
+    using T = decltype(in_file);
+    check_same_chunks([&](const hdf5::Group& group) {
+      hdf5::Dataset dataset = group.create_growing<T>("values", row, {1, true});
+      std::vector<T> wanted;
+      for (unsigned r = 0; r < 3; ++r) {
+        const std::vector<double> values = made_up_values<double>(count_of(row), 3 + r);
+        const hdf5::PackedRow packed = dataset.pack(values.data());
+        CHECK(packed.empty() != dataset.packs());
+        if (packed.empty())
+          dataset.append(values.data(), 1);
+        else
+          dataset.append(packed);
+        for (const double value : values) wanted.push_back(static_cast<T>(value));
+      }
+      CHECK(dataset.read<T>() == wanted);
+    });
+  };
+  check_packed({1}, 0.0);
+  check_packed({1860, 3}, 0.0);
+  check_packed({65536}, 0.0);
+  check_packed({1748, 6}, 0.0F);
+}
+
+TEST_CASE("rows that are not one chunk of numbers each are not compressed before") {
+  const TemporaryFolder folder;
+  hdf5::File file = hdf5::File::create(folder / "run.h5", kinds::results());
+  CHECK_FALSE(file.root().create_growing<double>("nobody asked for threads", {10}, {1, true}).packs());
+  file.compress_on([] { return 2; });
+  const hdf5::Group group = file.root();
+  CHECK(group.create_growing<double>("one", {10}, {1, true}).packs());
+  CHECK_FALSE(group.create_growing<double>("two", {65537}, {1, true}).packs());
+  CHECK_FALSE(group.create_growing<double>("none", {0}, {1, true}).packs());
+  CHECK_FALSE(group.create_growing<double>("many in a chunk", {}, {1024, true}).packs());
+  CHECK_FALSE(group.create_growing<double>("plain", {10}, {1, false}).packs());
+  CHECK_FALSE(group.create_growing<signed char>("bytes", {10}, {1, true}).packs());
+}
+
+TEST_CASE("of rows that are compressed together those are left out whose values are not to be had") {
+  for (const int threads : {1, 4}) {
+    const TemporaryFolder folder;
+    hdf5::File file = hdf5::File::create(folder / "run.h5", kinds::results());
+    file.compress_on([threads] { return threads; });
+    std::vector<hdf5::Dataset> datasets;
+    for (const char* name : {"a", "b", "c", "d", "e"})
+      datasets.push_back(file.root().create_growing<double>(name, {500}, {1, true}));
+    PackedRows rows;
+    for (unsigned k = 0; k < 5; ++k)
+      rows.add(datasets[k], [k] {
+        if (k == 1) throw std::runtime_error("made up");
+        return made_up_values<double>(k == 3 ? 499 : 500, k);
+      });
+    rows.pack(threads);
+    for (unsigned k = 0; k < 5; ++k) {
+      CHECK(rows.append_to(datasets[k]) == (k != 1 && k != 3));
+      CHECK(datasets[k].shape()[0] == (k != 1 && k != 3 ? 1 : 0));
+    }
+    CHECK(datasets[4].read<double>() == made_up_values<double>(500, 4));
+  }
 }
 
 TEST_CASE("arrays that are written at once have HDF5's own chunks") {

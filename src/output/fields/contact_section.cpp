@@ -1,6 +1,7 @@
 #include "output/fields/contact_section.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace railwave {
@@ -61,7 +62,14 @@ ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool sl
   return side;
 }
 
-void ContactSection::Side::add(const ContactState& state, const ContactOutput& output) {
+std::vector<double> ContactSection::Side::values_of(const Column& column, const ContactState& state,
+                                                    const ContactOutput& output) const {
+  std::vector<double> values = contact_values(state, slave, *column.row);
+  output.format.round(column.row->name, values);
+  return values;
+}
+
+void ContactSection::Side::add(const ContactState& state, const ContactOutput& output, const PackedRows& packed) {
   const ContactSide& now = slave ? state.slave : state.master;
   if (output.near_only()) {
     row_count += static_cast<long>(now.nodes.size());
@@ -70,11 +78,9 @@ void ContactSection::Side::add(const ContactState& state, const ContactOutput& o
   } else if (now.nodes != surface->nodes) {
     throw std::logic_error("the nodes of a contact surface changed during the run");
   }
-  for (Column& column : columns) {
-    std::vector<double> values = contact_values(state, slave, *column.row);
-    output.format.round(column.row->name, values);
-    column.dataset.append(values.data(), output.near_only() ? now.nodes.size() : 1);
-  }
+  for (Column& column : columns)
+    if (!packed.append_to(column.dataset))
+      column.dataset.append(values_of(column, state, output).data(), output.near_only() ? now.nodes.size() : 1);
 }
 
 ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
@@ -101,9 +107,17 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactD
   times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection
 }
 
-void ContactSection::add_values(const FieldSource& source, long step) {
+void ContactSection::add_rows(const FieldSource& source, PackedRows& rows) const {
+  if (output_.near_only()) return;  // many of their rows are a chunk
+  const auto state = std::make_shared<const ContactState>(source.contact(number_));
+  for (const Side& side : sides_)
+    for (const Column& column : side.columns)
+      rows.add(column.dataset, [this, &side, &column, state] { return side.values_of(column, *state, output_); });
+}
+
+void ContactSection::add_values(const FieldSource& source, long step, const PackedRows& packed) {
   const ContactState state = source.contact(number_);
-  for (Side& side : sides_) side.add(state, output_);
+  for (Side& side : sides_) side.add(state, output_, packed);
   steps_.append(&step, 1);
 }
 

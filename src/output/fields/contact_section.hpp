@@ -11,6 +11,7 @@
 #include "model/contact/contact_state.hpp"
 #include "output/fields/field_snapshot.hpp"
 #include "output/fields/number_format.hpp"
+#include "output/fields/packed_rows.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
@@ -69,8 +70,9 @@ class ContactSection {
   ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
                  const ContactOutput& output);
 
-  /// Writes the state at one more output time, then its time: see ResultsWriter::flush().
-  void add_values(const FieldSource& source, long step);
+  /// As those of FieldSection.
+  void add_rows(const FieldSource& source, PackedRows& rows) const;
+  void add_values(const FieldSource& source, long step, const PackedRows& packed = {});
   void add_time(double time) { times_.append(&time, 1); }
 
  private:
@@ -84,7 +86,8 @@ class ContactSection {
     std::vector<Column> columns;
     hdf5::Dataset rows, nodes;  ///< of near nodes: how many rows there are up to each output, and whose they are
     long row_count = 0;
-    void add(const ContactState& state, const ContactOutput& output);
+    std::vector<double> values_of(const Column& column, const ContactState& state, const ContactOutput& output) const;
+    void add(const ContactState& state, const ContactOutput& output, const PackedRows& packed);
   };
   Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact) const;
 

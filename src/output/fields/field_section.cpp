@@ -31,15 +31,23 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
   std::stable_partition(columns_.begin(), columns_.end(), [](const Column& one) { return one.field->of_nodes(); });
 }
 
-void FieldSection::add_values(const FieldSource& source, long step) {
-  for (Column& column : columns_) {
-    const std::vector<int>& numbers = set_.numbers(*column.field);
-    HostField field = source.field(*column.field, numbers);
-    if (field.components != column.field->components || field.values.size() != numbers.size() * field.components)
-      throw std::logic_error("the fields of " + set_.name + " have not the length of the set");
-    format_.round(column.field->name, field.values);
-    column.dataset.append(field.values.data(), 1);
-  }
+std::vector<double> FieldSection::values_of(const Column& column, const FieldSource& source) const {
+  const std::vector<int>& numbers = set_.numbers(*column.field);
+  HostField field = source.field(*column.field, numbers);
+  if (field.components != column.field->components || field.values.size() != numbers.size() * field.components)
+    throw std::logic_error("the fields of " + set_.name + " have not the length of the set");
+  format_.round(column.field->name, field.values);
+  return std::move(field.values);
+}
+
+void FieldSection::add_rows(const FieldSource& source, PackedRows& rows) const {
+  for (const Column& column : columns_)
+    rows.add(column.dataset, [this, &column, &source] { return values_of(column, source); });
+}
+
+void FieldSection::add_values(const FieldSource& source, long step, const PackedRows& packed) {
+  for (Column& column : columns_)
+    if (!packed.append_to(column.dataset)) column.dataset.append(values_of(column, source).data(), 1);
   if (set_.is_beam()) add_section_forces(source);
   steps_.append(&step, 1);
 }

@@ -5,6 +5,7 @@
 
 #include "output/fields/field_snapshot.hpp"
 #include "output/fields/number_format.hpp"
+#include "output/fields/packed_rows.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
 
@@ -18,8 +19,12 @@ class FieldSection {
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields,
                const NumberFormat& format);
 
+  /// Names rows of one more output that can be compressed ahead.
+  /// @param source outlives them
+  void add_rows(const FieldSource& source, PackedRows& rows) const;
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
-  void add_values(const FieldSource& source, long step);
+  /// @param packed rows of them
+  void add_values(const FieldSource& source, long step, const PackedRows& packed = {});
   void add_time(double time) { times_.append(&time, 1); }
 
  private:
@@ -27,6 +32,7 @@ class FieldSection {
     const FieldRow* field;
     hdf5::Dataset dataset;
   };
+  std::vector<double> values_of(const Column& column, const FieldSource& source) const;
   void add_section_forces(const FieldSource& source);
 
   OutputSet set_;

@@ -50,6 +50,16 @@ using ThreadCount = std::function<int()>;
 /// dataset `rows`: how many there are up to and with each output.
 inline constexpr const char* near_nodes = "near";
 
+/// A row of an array as it goes into the file, see Dataset::pack().
+using PackedRow = std::vector<unsigned char>;
+
+/// How rows of an array lie in the file of which each is one compressed chunk.
+struct RowLayout {
+  hsize_t values = 0;
+  bool in_single = false;
+  int level = 0;  ///< of deflate
+};
+
 /// Array in a file. Element types are double, float, int, long, signed and unsigned char; an array of one of them can
 /// be appended and read as any other.
 class Dataset {
@@ -64,6 +74,19 @@ class Dataset {
   /// Adds `count` rows (entries along the first dimension) at the end.
   template <class T>
   void append(const T* rows, hsize_t count);
+
+  /// Compresses a row without any use of HDF5, so that other threads may use it meanwhile, for append(). The bytes are
+  /// those that HDF5's own filters make.
+  /// @return empty: HDF5 is to compress it, as in an array that is not made by Group::create_growing() in a file with
+  /// compress_on(), whose rows are not one chunk each, or where memory is little
+  PackedRow pack(const double* row) const;
+  /// Whether pack() is for its rows; how many values they have.
+  bool packs() const { return layout_.has_value(); }
+  hsize_t values_of_packed() const { return layout_ ? layout_->values : 0; }
+  void append(const PackedRow& row);
+
+  /// Asks HDF5 how its rows lie.
+  void find_layout();
 
   template <class T>
   std::vector<T> read() const;
@@ -81,6 +104,7 @@ class Dataset {
   Handle id_;
   std::string name_;
   ThreadCount threads_;
+  std::optional<RowLayout> layout_;
 };
 
 /// How a growing dataset is stored. Compressed chunks are written once and whole: one that is rewritten in another size

@@ -279,6 +279,21 @@ struct Fill {
   }
 };
 
+template <class F>
+PackedRow pack_row_as(const RowLayout& layout, const double* row) {
+  const std::size_t bytes_in_chunk = layout.values * sizeof(F);
+  Packed packed{std::vector<unsigned char>(Packer::most_packed(bytes_in_chunk)), 0};
+  const auto fill = [&](unsigned char* bytes) {
+    for (hsize_t i = 0; i < layout.values; ++i) {
+      const F value = static_cast<F>(row[i]);
+      std::memcpy(bytes + i * sizeof(F), &value, sizeof(F));
+    }
+  };
+  Packer(layout.level, bytes_in_chunk).pack(fill, sizeof(F), packed);
+  packed.bytes.resize(packed.size);
+  return std::move(packed.bytes);
+}
+
 template <class F, class T>
 bool write_as(hid_t dataset, hid_t properties, const std::string& name, const Chunks& chunks, const T* values,
               const ThreadCount& threads) {
@@ -293,8 +308,7 @@ bool write_as(hid_t dataset, hid_t properties, const std::string& name, const Ch
     if (packed == nullptr) continue;
     if (packed->size == 0) throw std::logic_error("writing " + name + ": zlib could not compress a chunk");
     expect_free_memory();
-    check(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, chunks.offset(chunk).data(), packed->size, packed->bytes.data()),
-          "writing " + name);
+    write_chunk(dataset, name, chunks.offset(chunk), packed->bytes.data(), packed->size);
     packing.give_back(chunk++);
   }
   return true;
@@ -337,6 +351,45 @@ bool write_chunks([[maybe_unused]] hid_t dataset, [[maybe_unused]] const std::st
       return write_as<float>(dataset, properties.get(), name, *chunks, values, threads);
 #endif
   return false;
+}
+
+std::optional<RowLayout> row_layout([[maybe_unused]] hid_t dataset, [[maybe_unused]] const std::string& name) {
+#ifdef RAILWAVE_CHUNKS
+  const std::string what = "asking for the chunks of " + name;
+  const Handle properties(check(H5Dget_create_plist(dataset), what), H5Pclose),
+      type(check(H5Dget_type(dataset), what), H5Tclose), space = file_space(dataset, name);
+  const std::optional<int> level = level_of(properties.get());
+  const bool in_single = H5Tequal(type.get(), native_type<float>()) > 0;
+  if (!level || (!in_single && H5Tequal(type.get(), native_type<double>()) <= 0)) return std::nullopt;
+  Shape chunk(check(H5Sget_simple_extent_ndims(space.get()), what)), extent(chunk.size());
+  check(H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr), what);
+  if (extent.empty() || H5Pget_layout(properties.get()) != H5D_CHUNKED ||
+      H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()) != static_cast<int>(chunk.size()))
+    return std::nullopt;
+  extent[0] = 1;
+  if (extent != chunk) return std::nullopt;
+  return RowLayout{count_of(chunk), in_single, *level};
+#else
+  return std::nullopt;
+#endif
+}
+
+PackedRow pack_row([[maybe_unused]] const RowLayout& layout, [[maybe_unused]] const double* row) {
+#ifdef RAILWAVE_CHUNKS
+  try {
+    return layout.in_single ? pack_row_as<float>(layout, row) : pack_row_as<double>(layout, row);
+  } catch (const std::bad_alloc&) {
+  }
+#endif
+  return {};
+}
+
+void write_chunk([[maybe_unused]] hid_t dataset, [[maybe_unused]] const std::string& name,
+                 [[maybe_unused]] const Shape& offset, [[maybe_unused]] const void* bytes,
+                 [[maybe_unused]] std::size_t size) {
+#ifdef RAILWAVE_CHUNKS
+  check(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, offset.data(), size, bytes), "writing " + name);
+#endif
 }
 
 #define RAILWAVE_FOR_TYPE(T) \

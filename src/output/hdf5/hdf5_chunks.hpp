@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "output/hdf5/hdf5.hpp"
@@ -26,5 +27,15 @@ std::uint32_t fletcher32(const unsigned char* bytes, std::size_t size);
 template <class T>
 bool write_chunks(hid_t dataset, const std::string& name, hsize_t first, const Shape& block, const T* values,
                   const ThreadCount& threads);
+
+/// How rows lie of a dataset of numbers whose rows are one chunk each and have those filters; nothing: it is another.
+std::optional<RowLayout> row_layout(hid_t dataset, const std::string& name);
+
+/// Applies the filters to a row. @return empty: there was no memory for it
+PackedRow pack_row(const RowLayout& layout, const double* row);
+
+/// Writes a chunk as it goes into the file.
+/// @param offset of its first value in the dataset
+void write_chunk(hid_t dataset, const std::string& name, const Shape& offset, const void* bytes, std::size_t size);
 
 }  // namespace railwave::hdf5

@@ -60,6 +60,20 @@ void Dataset::append(const T* rows, hsize_t count) {
   check(H5Dwrite(id_.get(), native_type<T>(), memory.get(), space.get(), H5P_DEFAULT, rows), "writing " + name_);
 }
 
+void Dataset::find_layout() {
+  if (threads_) layout_ = row_layout(id_.get(), name_);
+}
+
+PackedRow Dataset::pack(const double* row) const { return layout_ ? pack_row(*layout_, row) : PackedRow(); }
+
+void Dataset::append(const PackedRow& row) {
+  expect_free_memory();
+  Shape whole = extent(), start(whole.size(), 0);
+  start[0] = whole[0]++;
+  check(H5Dset_extent(id_.get(), whole.data()), "extending " + name_);
+  write_chunk(id_.get(), name_, start, row.data(), row.size());
+}
+
 template <class T>
 std::vector<T> Dataset::read() const {
   const LimitedCall limited;

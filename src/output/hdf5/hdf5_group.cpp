@@ -95,6 +95,7 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
     Shape found = there.shape();
     if (found.empty() || !std::equal(found.begin() + 1, found.end(), row.begin(), row.end()))
       throw std::runtime_error("extending " + name_ + name + ": it is there with another shape");
+    there.find_layout();
     return there;
   }
   Shape extent{0}, limit{H5S_UNLIMITED}, chunk{storage.rows_in_chunk};
@@ -123,7 +124,9 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
       H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   Handle made(check(id, what), H5Dclose);
   set_unit(id, unit_of(name_ + name), what);
-  return {std::move(made), name_ + name, threads_};
+  Dataset dataset(std::move(made), name_ + name, threads_);
+  dataset.find_layout();
+  return dataset;
 }
 
 template <class T>

@@ -42,6 +42,22 @@ struct ArraySum {
   KOKKOS_INLINE_FUNCTION void operator()(int i, double* sum) const { sum[0] += of(i); }
 };
 
+/// Adds up what blocks have left, one after the other, as a host does.
+struct SumOfLeft {
+  const double* left;
+  int parts;
+  double* result;
+  KOKKOS_INLINE_FUNCTION void operator()(int /*one*/) const {
+    constexpr int at_once = 32;  // memory is asked for so many before the first is added
+    double sum = 0, next[at_once];
+    for (int first = 0; first < parts; first += at_once) {
+      for (int k = 0; k < at_once; ++k) next[k] = first + k < parts ? left[first + k] : 0;
+      for (int k = 0; k < at_once; ++k) sum += next[k];
+    }
+    *result = sum;
+  }
+};
+
 /// Sums that blocks have left.
 template <int Values>
 struct LeftSum {

@@ -34,6 +34,19 @@ class Reductions {
       sum_by_blocks(term, count, use);
   }
 
+  /// The sum of `term`, which has one value, for launches that come later: at a place of the device, to the last bit
+  /// what the host would get. Nothing else is queued.
+  template <class Term>
+  void sum_on_device(const Term& term, int count, double* result) {
+    static_assert(Term::values == 1);
+    sum(term, count, [](const double*) {});
+    const Queued& one = queued_.back();
+    Kokkos::parallel_for("sum_of_left", SpreadRange(order_, 0, 1),
+                         SumOfLeft{space_.left.data() + one.place, one.parts, result});
+    queued_.clear();
+    used_ = 0;
+  }
+
   /// Queues the largest of each of the quantities of `term` over `count` items, with the items that have them.
   /// @param term see BlockLargest
   /// @param use use(const Largest<Term::values>&)

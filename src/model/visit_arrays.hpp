@@ -328,6 +328,7 @@ void visit_arrays(const Named<Visitor>& visit, GlobalEstimate& estimate) {
   visit(ArrayUse::scratch, "before", estimate.before_);
   visit(ArrayUse::scratch, "image", estimate.image_);
   visit(ArrayUse::scratch, "displacement", estimate.displacement_);
+  visit(ArrayUse::scratch, "products", estimate.products_);
 }
 
 /// All of a model. Names are `module_array` or `module_number_array`.

@@ -86,6 +86,20 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
   CHECK(asked == 1);
 }
 
+TEST_CASE("a sum that stays on the device is to the last bit the one that its host would get") {
+  ReductionSpace space, other;
+  const Array<double*> sums("sums", 8);
+  std::vector<double> expected;
+  for (const int count : {0, 1, 31, 128, 4097, 70001, 300000, 5}) {
+    std::vector<double> list;
+    for (int i = 0; i < count; ++i) list.push_back(std::sin(3.0 + i) / 7);
+    const ArraySum term{to_device("numbers", list)};
+    block_sum(term, count, &expected.emplace_back(), other);
+    Reductions(space).sum_on_device(term, count, sums.data() + expected.size() - 1);
+  }
+  CHECK(to_vector(sums) == expected);
+}
+
 TEST_CASE("sums by terms of different types in one launch are those of each alone") {
   using Terms = TypeList<Sign, LeftSum<3>, Powers>;
   const std::vector<int> counts = {5, 0, 1, 128, 129, 70000, 33};

@@ -6,6 +6,7 @@
 #include "kernels/support/reductions.hpp"
 #include "kernels/ties/tie.hpp"
 #include "model/elements/hourglass_scale.hpp"
+#include "model/host_copy.hpp"
 #include "model/time_step/estimate_share.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "model/time_step/tangent_springs.hpp"
@@ -60,16 +61,19 @@ struct StartVector {
 /// w - alpha q - beta p
 struct Recur {
   NodeVector w, q, p;
-  double alpha, beta;
+  const double *alpha, *squared_beta;
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    for (int i = 0; i < 3; ++i) w(n, i) -= alpha * q(n, i) + beta * p(n, i);
+    const double beta = std::sqrt(*squared_beta);
+    for (int i = 0; i < 3; ++i) w(n, i) -= *alpha * q(n, i) + beta * p(n, i);
   }
 };
 
+/// To unit length.
 struct Scale {
   NodeVector w;
-  double factor;
+  const double* squared_length;
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double factor = 1 / std::sqrt(*squared_length);
     for (int i = 0; i < 3; ++i) w(n, i) *= factor;
   }
 };
@@ -101,13 +105,24 @@ GlobalEstimate::GlobalEstimate(const AssembledScene& assembled, const NodalState
   before_ = unset_array<double* [3]>("tangent vector before", nodes);
   image_ = unset_array<double* [3]>("tangent image", nodes);
   displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
+  products_ = Array<double*>("inner products", 2 + 2 * most_iterations);
 }
 
-double GlobalEstimate::inner(const NodeVector& a, const NodeVector& b) const {
-  if (share_ != nullptr) return share_->sum(a, b);
-  double sum = 0;
-  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, *nodal_.reduction_space);
-  return sum;
+void GlobalEstimate::inner(const NodeVector& a, const NodeVector& b, int place) const {
+  if (share_ == nullptr)
+    Reductions(*nodal_.reduction_space)
+        .sum_on_device(InnerProduct{a, b}, static_cast<int>(a.extent(0)), products_.data() + place);
+  else
+    Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(products_, place), share_->sum(a, b));
+}
+
+void GlobalEstimate::fetch_products(int iterations, Recurrence& known) const {
+  const std::vector<double> products = to_vector(products_);
+  for (int k = static_cast<int>(known.diagonal.size()) + 1; k <= iterations && !known.exhausted; ++k) {
+    known.diagonal.push_back(products[2 * k]);
+    known.beside.push_back(std::sqrt(products[2 * k + 1]));
+    known.exhausted = known.beside.back() <= 1e-10 * std::fabs(known.diagonal.front());
+  }
 }
 
 void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result) {
@@ -174,37 +189,38 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
                   tangent_.corners(), share_ != nullptr ? share_->end_of_scene() : nodes});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{now_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
-  const double size = std::sqrt(inner(now_, now_));
-  if (!(size > 0)) return 0;  // everything is held
-  Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
+  const double* const products = products_.data();
+  Kokkos::deep_copy(ExecutionSpace(), products_, 0.0);
+  inner(now_, now_, 0);
+  if (!(to_vector(products_).front() > 0)) return 0;  // everything is held
+  Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, products});
   Kokkos::deep_copy(ExecutionSpace(), before_, 0.0);
 
-  std::vector<double> diagonal, beside;
-  RitzValue ritz;
-  while (true) {
+  Recurrence known;
+  for (int k = 1;; ++k) {
     apply(inverse_time);
-    ++result.applications;
-    diagonal.push_back(inner(now_, image_));
+    const int diagonal = 2 * k, beside = 2 * k + 1;
+    inner(now_, image_, diagonal);
     Kokkos::parallel_for("tangent_recur", Range(0, nodes),
-                         Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
-    beside.push_back(std::sqrt(inner(image_, image_)));
-    const int iterations = static_cast<int>(diagonal.size());
-    const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
-    if (exhausted || iterations % iterations_between_checks == 0 || iterations == most_iterations) {
-      ritz = largest_ritz_value(diagonal, beside);
+                         Recur{image_, now_, before_, products + diagonal, products + beside - 2});
+    inner(image_, image_, beside);
+    if (k % iterations_between_checks == 0 || k == most_iterations) {
+      fetch_products(k, known);
+      const int iterations = static_cast<int>(known.diagonal.size());
+      const RitzValue ritz = largest_ritz_value(known.diagonal, known.beside);
       const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= bounds.enough;
       const bool too_high = ritz.value > bounds.most;
-      if (exhausted || low_enough || too_high || ritz.residual <= accuracy * ritz.value ||
-          iterations == most_iterations)
-        break;
+      if (known.exhausted || low_enough || too_high || ritz.residual <= accuracy * ritz.value || k == most_iterations) {
+        result.applications += iterations;
+        return ritz.value + ritz.residual;
+      }
     }
-    Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, 1 / beside.back()});
+    Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, products + beside});
     const NodeVector spent = before_;
     before_ = now_;
     now_ = image_;
     image_ = spent;
   }
-  return ritz.value + ritz.residual;
 }
 
 GlobalStep GlobalEstimate::operator()(const ContactReach& within, double guess) {

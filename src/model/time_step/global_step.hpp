@@ -77,7 +77,15 @@ class GlobalEstimate {
   void set_springs(const ContactReach& within, GlobalStep& result);
   GlobalStep solve(double guess, Guess is, GlobalStep result);
   void apply(double inverse_time);
-  double inner(const NodeVector& a, const NodeVector& b) const;
+  /// a . b, for launches that come later, at that place of products_.
+  void inner(const NodeVector& a, const NodeVector& b, int place) const;
+  /// Lanczos' recurrence as far as the host knows it: its numbers are on the device, and fetched now and then.
+  struct Recurrence {
+    std::vector<double> diagonal, beside;
+    bool exhausted = false;  ///< nothing is left beside the last vector; what was launched after it is void
+  };
+  /// @param iterations that were launched
+  void fetch_products(int iterations, Recurrence& known) const;
   /// Where the search of the largest eigenvalue may end early.
   struct Bounds {
     double enough = 0;  ///< a Ritz value with three times its residual below this will do; 0: none
@@ -94,6 +102,7 @@ class GlobalEstimate {
   const EstimateShare* share_ = nullptr;
   TangentOperator tangent_;
   NodeVector now_, before_, image_, displacement_;
+  Array<double*> products_;  ///< the start with itself, 0; of each iteration diagonal and square of what is beside it
 };
 
 }  // namespace railwave

@@ -69,7 +69,7 @@ void BackgroundWriter::fields(const FieldSource& source, double time, long step,
   thread_.add(
       [this, snapshot, time, step, choice] {
         if (!writer_->has_sections()) alone([this] { writer_->make_sections(); })();
-        const PackedRows packed = writer_->pack(*snapshot, choice);
+        const CompressedRows packed = writer_->pack(*snapshot, choice);
         alone([&] { writer_->fields(*snapshot, time, step, choice, packed); })();
       },
       size_of_fields);

@@ -239,8 +239,8 @@ void ResultsWriter::describe_anew() {
   throw std::runtime_error(fmt::format("{} was removed each time it was written", xdmf_path(path_)));
 }
 
-PackedRows ResultsWriter::pack(const FieldSource& source, const OutputChoice& choice) const {
-  PackedRows rows;
+CompressedRows ResultsWriter::pack(const FieldSource& source, const OutputChoice& choice) const {
+  CompressedRows rows;
   for (std::size_t s = 0; s < field_sections_.size(); ++s)
     if (choice.sets[s]) field_sections_[s].add_rows(source, rows);
   for (std::size_t c = 0; c < contact_sections_.size(); ++c)
@@ -250,7 +250,7 @@ PackedRows ResultsWriter::pack(const FieldSource& source, const OutputChoice& ch
 }
 
 void ResultsWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice,
-                           const PackedRows& packed) {
+                           const CompressedRows& packed) {
   if (!has_sections_) make_sections();
   for (std::size_t s = 0; s < field_sections_.size(); ++s)
     if (choice.sets[s]) field_sections_[s].add_values(source, step, packed);

@@ -83,11 +83,11 @@ class ResultsWriter {
   bool has_sections() const { return has_sections_; }
   /// Compresses what it can of an output without HDF5, which other threads may use meanwhile; with make_sections()
   /// before.
-  PackedRows pack(const FieldSource& source, const OutputChoice& choice) const;
+  CompressedRows pack(const FieldSource& source, const OutputChoice& choice) const;
   /// @param choice of the sets and contacts that are written
   /// @param packed of this output
   void fields(const FieldSource& source, double time, long step, const OutputChoice& choice,
-              const PackedRows& packed = {});
+              const CompressedRows& packed = {});
   void fields(const FieldSource& source, double time, long step) {
     fields(source, time, step, OutputChoice::all(description_.sets.size(), description_.contacts.size()));
   }

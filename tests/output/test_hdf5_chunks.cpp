@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "output/fields/packed_rows.hpp"
+#include "output/fields/compressed_rows.hpp"
 #include "output/file_kind.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_chunks.hpp"
@@ -192,7 +192,7 @@ TEST_CASE("of rows that are compressed together those are left out whose values 
     std::vector<hdf5::Dataset> datasets;
     for (const char* name : {"a", "b", "c", "d", "e"})
       datasets.push_back(file.root().create_growing<double>(name, {500}, {1, true}));
-    PackedRows rows;
+    CompressedRows rows;
     for (unsigned k = 0; k < 5; ++k)
       rows.add(datasets[k], [k] {
         if (k == 1) throw std::runtime_error("made up");

@@ -69,7 +69,7 @@ std::vector<double> ContactSection::Side::values_of(const Column& column, const 
   return values;
 }
 
-void ContactSection::Side::add(const ContactState& state, const ContactOutput& output, const PackedRows& packed) {
+void ContactSection::Side::add(const ContactState& state, const ContactOutput& output, const CompressedRows& packed) {
   const ContactSide& now = slave ? state.slave : state.master;
   if (output.near_only()) {
     row_count += static_cast<long>(now.nodes.size());
@@ -107,7 +107,7 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactD
   times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection
 }
 
-void ContactSection::add_rows(const FieldSource& source, PackedRows& rows) const {
+void ContactSection::add_rows(const FieldSource& source, CompressedRows& rows) const {
   if (output_.near_only()) return;  // many of their rows are a chunk
   const auto state = std::make_shared<const ContactState>(source.contact(number_));
   for (const Side& side : sides_)
@@ -115,7 +115,7 @@ void ContactSection::add_rows(const FieldSource& source, PackedRows& rows) const
       rows.add(column.dataset, [this, &side, &column, state] { return side.values_of(column, *state, output_); });
 }
 
-void ContactSection::add_values(const FieldSource& source, long step, const PackedRows& packed) {
+void ContactSection::add_values(const FieldSource& source, long step, const CompressedRows& packed) {
   const ContactState state = source.contact(number_);
   for (Side& side : sides_) side.add(state, output_, packed);
   steps_.append(&step, 1);

@@ -9,9 +9,9 @@
 #include "case/field_table.hpp"
 #include "case/surface_names.hpp"
 #include "model/contact/contact_state.hpp"
+#include "output/fields/compressed_rows.hpp"
 #include "output/fields/field_snapshot.hpp"
 #include "output/fields/number_format.hpp"
-#include "output/fields/packed_rows.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
@@ -71,8 +71,8 @@ class ContactSection {
                  const ContactOutput& output);
 
   /// As those of FieldSection.
-  void add_rows(const FieldSource& source, PackedRows& rows) const;
-  void add_values(const FieldSource& source, long step, const PackedRows& packed = {});
+  void add_rows(const FieldSource& source, CompressedRows& rows) const;
+  void add_values(const FieldSource& source, long step, const CompressedRows& packed = {});
   void add_time(double time) { times_.append(&time, 1); }
 
  private:
@@ -87,7 +87,7 @@ class ContactSection {
     hdf5::Dataset rows, nodes;  ///< of near nodes: how many rows there are up to each output, and whose they are
     long row_count = 0;
     std::vector<double> values_of(const Column& column, const ContactState& state, const ContactOutput& output) const;
-    void add(const ContactState& state, const ContactOutput& output, const PackedRows& packed);
+    void add(const ContactState& state, const ContactOutput& output, const CompressedRows& packed);
   };
   Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact) const;
 

@@ -40,12 +40,12 @@ std::vector<double> FieldSection::values_of(const Column& column, const FieldSou
   return std::move(field.values);
 }
 
-void FieldSection::add_rows(const FieldSource& source, PackedRows& rows) const {
+void FieldSection::add_rows(const FieldSource& source, CompressedRows& rows) const {
   for (const Column& column : columns_)
     rows.add(column.dataset, [this, &column, &source] { return values_of(column, source); });
 }
 
-void FieldSection::add_values(const FieldSource& source, long step, const PackedRows& packed) {
+void FieldSection::add_values(const FieldSource& source, long step, const CompressedRows& packed) {
   for (Column& column : columns_)
     if (!packed.append_to(column.dataset)) column.dataset.append(values_of(column, source).data(), 1);
   if (set_.is_beam()) add_section_forces(source);

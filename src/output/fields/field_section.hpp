@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "output/fields/compressed_rows.hpp"
 #include "output/fields/field_snapshot.hpp"
 #include "output/fields/number_format.hpp"
-#include "output/fields/packed_rows.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
 
@@ -21,10 +21,10 @@ class FieldSection {
 
   /// Names rows of one more output that can be compressed ahead.
   /// @param source outlives them
-  void add_rows(const FieldSource& source, PackedRows& rows) const;
+  void add_rows(const FieldSource& source, CompressedRows& rows) const;
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
   /// @param packed rows of them
-  void add_values(const FieldSource& source, long step, const PackedRows& packed = {});
+  void add_values(const FieldSource& source, long step, const CompressedRows& packed = {});
   void add_time(double time) { times_.append(&time, 1); }
 
  private:

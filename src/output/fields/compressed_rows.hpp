@@ -10,7 +10,7 @@ namespace railwave {
 /// Rows of an output of fields that are compressed before HDF5 is asked to write them: on several threads, and while
 /// other runs of the process use HDF5, which one at a time may. Longer rows, of several chunks, are not among them:
 /// HDF5's wrapper compresses those itself, a few chunks at a time.
-class PackedRows {
+class CompressedRows {
  public:
   /// Values of a row; any thread may ask for them.
   using Values = std::function<std::vector<double>()>;

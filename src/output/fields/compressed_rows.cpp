@@ -1,4 +1,4 @@
-#include "output/fields/packed_rows.hpp"
+#include "output/fields/compressed_rows.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,11 +10,11 @@
 
 namespace railwave {
 
-void PackedRows::add(const hdf5::Dataset& dataset, Values values) {
+void CompressedRows::add(const hdf5::Dataset& dataset, Values values) {
   if (dataset.packs()) rows_.push_back({&dataset, std::move(values), {}});
 }
 
-void PackedRows::pack(int threads) {
+void CompressedRows::pack(int threads) {
   const std::size_t workers = std::min(rows_.size(), static_cast<std::size_t>(std::max(threads, 1)));
   // Of a thread, its stream and its row: values, shuffled, packed. Packed rows stay.
   constexpr std::size_t stack = std::size_t{8} << 20, of_zlib = std::size_t{1} << 20;
@@ -46,7 +46,7 @@ void PackedRows::pack(int threads) {
   for (std::thread& helper : helpers) helper.join();
 }
 
-bool PackedRows::append_to(hdf5::Dataset& dataset) const {
+bool CompressedRows::append_to(hdf5::Dataset& dataset) const {
   const auto row = std::find_if(rows_.begin(), rows_.end(),
                                 [&](const Row& one) { return one.dataset == &dataset && !one.packed.empty(); });
   if (row == rows_.end()) return false;

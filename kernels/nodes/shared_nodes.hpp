@@ -18,6 +18,8 @@ struct SharedNodes {
 /// Step 3 of the thesis's table 2.1 for shared nodes. Where the laws of torques and connectors have been evaluated but
 /// not yet shared out, a node works out its own loads here, beside the many that have none.
 struct SharedForces {
+  static constexpr int shares_at_once = on_device ? 2 : 1;  ///< few: more take registers
+
   NodalAcceleration acceleration;
   SharedNodes shared;
   RowLoads rows;
@@ -30,11 +32,10 @@ struct SharedForces {
     Vector3 external{{0, 0, 0}};
     if (special.row >= 0) {
       const Vector3 contact = force.external.contact_force(special.row);
+      const LoadedRow loaded{special.row, node.node & ~special_bit, special.first_share,
+                             special.first_share + special.shares};
       if (rows_here && special.shares > 0)
-        external = rows.gather < on_device ? 2
-                                           : 1 > ({special.row, node.node & ~special_bit, special.first_share,
-                                                   special.first_share + special.shares}) +
-                                                     contact;
+        external = rows.gather<shares_at_once>(loaded) + contact;
       else
         external = row(force.external.load, special.row) + contact;
     }

@@ -28,7 +28,7 @@ std::vector<std::set<int>> pasts(const GraphEdges& edges, const std::vector<bool
 
 }  // namespace
 
-TEST_CASE("A graph's edges go from one node that does something to another", "[solve][graphs]") {
+TEST_CASE("a graph's edges go from one node that does something to another") {
   // 0 and 1 are joined by 2, for 3 and 4.
   const GraphEdges edges{{0, 2}, {1, 2}, {2, 3}, {2, 4}};
   CHECK(fewest_edges(edges, {false, false, true, false, false}) == GraphEdges{{0, 3}, {0, 4}, {1, 3}, {1, 4}});
@@ -36,14 +36,14 @@ TEST_CASE("A graph's edges go from one node that does something to another", "[s
   CHECK(fewest_edges({{0, 1}, {1, 2}, {2, 3}}, {true, false, true, false}) == GraphEdges{{1, 3}});
 }
 
-TEST_CASE("A graph's node does not wait for what others that it waits for have waited for", "[solve][graphs]") {
+TEST_CASE("a graph's node does not wait for what others that it waits for have waited for") {
   CHECK(fewest_edges({{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}}, std::vector<bool>(4, false)) ==
         GraphEdges{{0, 1}, {1, 2}, {2, 3}});
   // The same through a join, in any order of numbers.
   CHECK(fewest_edges({{3, 2}, {2, 0}, {3, 1}, {0, 1}}, {true, false, false, false}) == GraphEdges{{2, 1}, {3, 2}});
 }
 
-TEST_CASE("Graphs with the fewest edges have the order that they had", "[solve][graphs]") {
+TEST_CASE("graphs with the fewest edges have the order that they had") {
   std::mt19937 random(1);
   for (int graph = 0; graph < 50; ++graph) {
     const int count = 2 + static_cast<int>(random() % 30);

@@ -201,7 +201,7 @@ TEST_CASE("the default takes the elements' step where something speaks against a
     CHECK(model.stable_step.limit == model.stable_step.by_elements);
     CHECK(model.stable_step.global == 0);
     CHECK_FALSE(model.global_estimate);
-    CHECK(model.contacts[0].counted.extent(0) == 0);
+    CHECK_FALSE(model.contacts[0].counts_springs());
     return model.stable_step.choice.reason;
   };
   scene::Scene scene = driven_blocks();

@@ -33,14 +33,15 @@ struct ContactPair {
   Array<int*> missed;         ///< one: see FindNearNodes
   Array<double*> counted;     ///< N/m by slave: its spring that is counted in the step, see FindNearNodes; empty where
                               ///< nobody asks (automatic_step.hpp)
-  Array<int*> uncounted;      ///< one: nodes that can touch by the last check, and are not counted
-  PinnedArray<int*> uncounted_sent;                 ///< the same, as the device has sent it
-  Milestone uncounted_arrives;                      ///< when it has
-  long uncounted_of = -1;                           ///< the step whose check that is; -1: the device has it alone
-  long near_checked_at = -1;                        ///< step of the last check
-  long answer_due = -1;                             ///< step at which the host asks for their number: see answer_of()
-  std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
-  std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
+  bool counts_springs() const { return counted.extent(0) != 0; }
+  Array<int*> uncounted;                         ///< one: nodes that can touch by the last check, and are not counted
+  PinnedArray<int*> uncounted_sent;              ///< the same, as the device has sent it
+  Milestone uncounted_arrives;                   ///< when it has
+  long uncounted_of = -1;                        ///< the step whose check that is; -1: the device has it alone
+  long near_checked_at = -1;                     ///< step of the last check
+  long answer_due = -1;                          ///< step at which the host asks for their number: see answer_of()
+  std::vector<int> slave_nodes, master_nodes;    ///< host copies, model node numbers
+  std::vector<std::array<int, 4>> slave_facets;  ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes
   std::vector<double> segment_stiffness;            ///< N/m, at no penetration
   double growth = 1;                                ///< largest factor on that, at any penetration

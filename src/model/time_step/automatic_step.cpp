@@ -71,7 +71,7 @@ Reason obstacle(const Model& model) {
 
 void count_in(const std::vector<ContactPair>& contacts, const std::vector<std::vector<double>>& counted) {
   for (std::size_t p = 0; p < contacts.size(); ++p) {
-    if (contacts[p].counted.extent(0) != 0) bring(counted[p], contacts[p].counted);
+    if (contacts[p].counts_springs()) bring(counted[p], contacts[p].counted);
   }
 }
 
@@ -136,12 +136,12 @@ namespace {
 
 /// Whether the number of a pair's uncounted nodes is asked for at a step, which may be one to come.
 bool answers_at(const ContactPair& pair, long step) {
-  if (pair.counted.extent(0) == 0) return false;
+  if (!pair.counts_springs()) return false;
   return pair.answer_due == step || pair.answer_of(std::min(pair.next_near_check, pair.next_check)) == step;
 }
 
 /// The same of the present step.
-bool answers_now(const ContactPair& pair, long step) { return pair.counted.extent(0) != 0 && pair.answer_due == step; }
+bool answers_now(const ContactPair& pair, long step) { return pair.counts_springs() && pair.answer_due == step; }
 
 /// Nodes that can touch by a pair's last check and are not counted. The device may have launches to do behind that
 /// check: none of them is waited for.

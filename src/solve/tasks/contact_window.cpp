@@ -260,7 +260,7 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   const bool near_check = check || nodal.step >= pair.next_near_check;
   if (!near_check && pair.boxed) return;
   const double sudden = sudden_motion(scene, pair, step, kind);
-  const bool counts = pair.counted.extent(0) != 0;
+  const bool counts = pair.counts_springs();
   const long steps = settling ? steps_between_near_checks_settling : ContactPair::steps_between_near_checks,
              ahead = counts ? steps + ContactPair::steps_to_answer : steps;
   const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;

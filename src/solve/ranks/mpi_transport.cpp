@@ -9,12 +9,15 @@
 #endif
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "case/error.hpp"
@@ -42,9 +45,20 @@ double patience_of_user() {
   return *seconds;
 }
 
+/// s that ranks may take to answer whether they live. Whoever waits for another answers at once.
+constexpr double patience_for_answers = 3;
+
 /// MPI counts bytes in an int.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr int failed = 1;
+
+/// What messages of one kind are known by: data, "do you live?" and "yes". The last two are empty.
+enum Tag : int { data_tag, question_tag, answer_tag };
+
+/// s by a clock that only goes on.
+double clock_time() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 void check(int code, const char* what) {
   if (code == MPI_SUCCESS) return;
@@ -100,22 +114,24 @@ class MpiTransport : public Transport {
   bool takes_device_memory() const override { return takes_device_memory_; }
 
   void broadcast(void* data, std::size_t bytes) override {
-    check(MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD), "tell all ranks");
+    MPI_Request request;
+    check(MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, &request), "send to all ranks");
+    wait_until([&] { return is_done(request); }, rank_ == 0 ? patience_ : without_end);
   }
 
   void start_send(int to, const void* data, std::size_t bytes) override {
     const auto* from = static_cast<const char*>(data);
     for (std::size_t at = 0; at < bytes; at += most_bytes)
-      check(MPI_Isend(from + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, to, 0, MPI_COMM_WORLD,
-                      next(to)),
+      check(MPI_Isend(from + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, to, data_tag,
+                      MPI_COMM_WORLD, next(to)),
             "send");
   }
 
   void start_receive(int from, void* data, std::size_t bytes) override {
     auto* to = static_cast<char*>(data);
     for (std::size_t at = 0; at < bytes; at += most_bytes)
-      check(MPI_Irecv(to + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, from, 0, MPI_COMM_WORLD,
-                      next(from)),
+      check(MPI_Irecv(to + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, from, data_tag,
+                      MPI_COMM_WORLD, next(from)),
             "receive");
   }
 
@@ -130,11 +146,7 @@ class MpiTransport : public Transport {
     others_.clear();
   }
 
-  void wait_until(const std::function<bool()>& come) override {
-    const auto began = std::chrono::steady_clock::now();
-    while (!come())
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience_) give_up();
-  }
+  void wait_until(const std::function<bool()>& come) override { wait_until(come, patience_); }
 
   int first_to_refuse(bool yes) override {
     int own = yes ? ranks_ : rank_, least = 0;
@@ -154,22 +166,80 @@ class MpiTransport : public Transport {
     return &requests_.back();
   }
 
-  [[noreturn]] void give_up() {
-    // Of rows that go from GPU to GPU it is not known whose are missing, but with two ranks.
-    int silent = ranks_ == 2 ? 1 - rank_ : -1;
-    for (std::size_t k = 0; k < requests_.size(); ++k) {
-      int done = 0;
-      MPI_Test(&requests_[k], &done, MPI_STATUS_IGNORE);
-      if (done == 0) silent = others_[k];
+  static bool is_done(MPI_Request& request) {
+    int done = 0;
+    check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "wait");
+    return done != 0;
+  }
+
+  /// @param patience s
+  template <class Come>
+  void wait_until(const Come& come, double patience) {
+    constexpr double usual_wait = 0.1;  // s that nobody loses patience in, so that no question can have come
+    const double began = clock_time();
+    while (!come()) {
+      const double waited = clock_time() - began;
+      if (waited > usual_wait) answer_questions();
+      if (waited > patience) give_up();
     }
+  }
+
+  static void answer_questions() {
+    for (;;) {
+      int asked = 0;
+      MPI_Status status;
+      check(MPI_Iprobe(MPI_ANY_SOURCE, question_tag, MPI_COMM_WORLD, &asked, &status), "look for questions");
+      if (asked == 0) return;
+      check(MPI_Recv(nullptr, 0, MPI_BYTE, status.MPI_SOURCE, question_tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE),
+            "receive a question");
+      check(MPI_Send(nullptr, 0, MPI_BYTE, status.MPI_SOURCE, answer_tag, MPI_COMM_WORLD), "answer");
+    }
+  }
+
+  /// Ranks that do not answer whether they live: they are stopped or busy. One that waits for others answers.
+  std::vector<int> silent_ranks() {
+    std::vector<MPI_Request> answers(ranks_, MPI_REQUEST_NULL);
+    for (int other = 0; other < ranks_; ++other) {
+      if (other == rank_) continue;
+      MPI_Request question;
+      check(MPI_Irecv(nullptr, 0, MPI_BYTE, other, answer_tag, MPI_COMM_WORLD, &answers[other]), "receive an answer");
+      check(MPI_Isend(nullptr, 0, MPI_BYTE, other, question_tag, MPI_COMM_WORLD, &question), "ask");
+      check(MPI_Request_free(&question), "ask");
+    }
+    std::vector<int> silent;
+    const double began = clock_time();
+    do {
+      answer_questions();
+      silent.clear();
+      for (int other = 0; other < ranks_; ++other)
+        if (!is_done(answers[other])) silent.push_back(other);
+    } while (!silent.empty() && clock_time() - began < patience_for_answers);
+    return silent;
+  }
+
+  /// Another rank that this one waits for; -1: of rows that go from GPU to GPU it is not known whose are missing.
+  int awaited_rank() {
+    for (std::size_t k = 0; k < requests_.size(); ++k)
+      if (!is_done(requests_[k])) return others_[k];
+    return -1;
+  }
+
+  [[noreturn]] void give_up() {
+    // Who is waited for may wait for another itself.
+    std::vector<int> silent = silent_ranks();
+    if (silent.empty()) silent = {awaited_rank()};
+    const std::string who = silent.size() > 1 ? fmt::format("ranks {} have", fmt::join(silent, ", "))
+                            : silent[0] < 0   ? "another rank has"
+                                              : fmt::format("rank {} has", silent[0]);
     std::cerr << fmt::format(
-                     "railwave: {} has not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is "
-                     "good: --restart goes on from it, on any number of ranks",
-                     silent < 0 ? std::string("another rank") : fmt::format("rank {}", silent), rank_, patience_)
+                     "railwave: {} not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is good: "
+                     "--restart goes on from it, on any number of ranks",
+                     who, rank_, patience_)
               << std::endl;
     end_all();
   }
 
+  static constexpr double without_end = std::numeric_limits<double>::infinity();
   const double patience_ = patience_of_user();
   int rank_ = 0, ranks_ = 1;
   bool takes_device_memory_ = false;

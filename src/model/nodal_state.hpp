@@ -13,6 +13,11 @@
 
 namespace railwave {
 
+/// [begin, end).
+struct IndexRange {
+  int begin = 0, end = 0;
+};
+
 /// The nodes of a model, what moves them, and the instant: forces and positions at `time`, velocities `velocity_lag`
 /// seconds before it. Every task works on it.
 struct NodalState {
@@ -21,9 +26,10 @@ struct NodalState {
   Array<double* [3][3]> constraints;
   Subcycling subcycling;
   PartialForces partial;
-  SharedNodes shared;  ///< those that no block advances by itself
-  int early_shared =
-      0;  ///< so many of them, the first, wait for nothing but elements and loads: see order_shared_nodes()
+  SharedNodes shared;        ///< those that no block advances by itself
+  int first_late = 0;        ///< of them: those from there on wait for ties, multipliers, prescribed motions or ends
+  IndexRange between_ranks;  ///< of them: those with blocks of several ranks; empty in one process
+  int early_shared = 0;      ///< so many, the first, move beside what the others wait for; 0 on a host
   bool plain_apart = false;  ///< whether those before shared.first_special have a launch of their own
   ElementParts parts;        ///< in which an advancing step computes the elements
   Array<int*> own_nodes;     ///< those that a rank moves; empty: all

@@ -52,6 +52,7 @@ void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vect
                         const std::vector<PrescribedSet>& prescribed, const Ties& ties, const NonReflectingEnds& ends,
                         bool in_parts, NodalState& nodal) {
   nodal.early_shared = 0;
+  nodal.first_late = static_cast<int>(nodal.shared.nodes.extent(0));
   nodal.plain_apart = false;
   nodal.parts = {};
   if (nodal.subcycling.levels > 1) return;  // they are in order of levels, and take no notice of special ones
@@ -73,9 +74,9 @@ void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vect
   mark(ends.nodes);
   const SharedOnHost shared = to_host(nodal.shared.nodes);
   nodal.shared.first_special = move_behind(shared, 0, [](const SharedNode& one) { return one.node >= 0; });
-  const int first_late = move_behind(shared, nodal.shared.first_special,
-                                     [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
-  if (on_device && any_but_ends) nodal.early_shared = first_late;
+  nodal.first_late = move_behind(shared, nodal.shared.first_special,
+                                 [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
+  if (on_device && any_but_ends) nodal.early_shared = nodal.first_late;
   nodal.plain_apart = on_device && nodal.shared.first_special > most_with_others;
   if (in_parts) {
     std::vector<char> special(nodal.nodes.count, 0);

@@ -53,25 +53,27 @@ GoingAlong going_along(const Model& model, StepKind kind, const RowExchange* exc
   return along;
 }
 
-EarlyNodes early_nodes(const Model& model, const RowExchange* exchange) {
-  if (exchange != nullptr) return exchange->between_devices() ? EarlyNodes::apart : EarlyNodes::with_others;
-  return model.ties.arrays.active() || model.parts.group >= 0 ? EarlyNodes::apart : EarlyNodes::beside_motion;
-}
-
-std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
+/// What moves before other nodes.
+std::vector<Task> motions_of_others(Model& model, StepKind kind) {
   std::vector<Task> tasks = prescribed_tasks(model, model.prescribed);
   if (model.beams && kind != StepKind::advancing)
     append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, MotionLanes::rotations));
-  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange),
-                           early_nodes(model, exchange)));
-  if (model.ties.arrays.active())
-    append(tasks, placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0));
   return tasks;
 }
 
-}  // namespace
+std::vector<Task> tied_motion(Model& model, StepKind kind) {
+  if (!model.ties.arrays.active()) return {};
+  return placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0);
+}
 
-namespace {
+std::vector<Task> motion_tasks(Model& model, StepKind kind) {
+  const bool apart = model.ties.arrays.active() || model.parts.group >= 0;
+  std::vector<Task> tasks = motions_of_others(model, kind);
+  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, nullptr),
+                           apart ? EarlyNodes::apart : EarlyNodes::beside_motion));
+  append(tasks, tied_motion(model, kind));
+  return tasks;
+}
 
 /// Whether outer blocks need nothing that the same step launches in the default order.
 bool outer_blocks_may_go_beside(const ElementModel& elements) {
@@ -108,72 +110,128 @@ std::vector<Task> in_space(std::vector<Task> tasks, const ExecutionSpace* space)
   return tasks;
 }
 
-/// Between ranks' devices: what comes after all elements goes beside the nodes that no other task waits for.
-void put_others_beside(Plan& plan, RowExchange& exchange) {
-  const auto later = std::find_if(plan.forces.begin(), plan.forces.end(),
-                                  [](const Task& task) { return task.stage > Stage::own_forces; });
-  const auto beside = [&](const Task& task) {
-    return task.apart() ? task : in_space({task}, exchange.side_space()).front();
-  };
-  std::transform(later, plan.forces.end(), later, beside);
-  std::transform(plan.motion.begin(), plan.motion.end(), plan.motion.begin(), beside);
-  plan.forces.insert(later, placed({exchange.side_begin_task()}, Stage::passed_on, 0).front());
-  append(plan.motion, placed({exchange.side_end_task()}, Stage::tied_motion, 0));
+/// Whether a rank's lanes go on side by side up to the end of a step: nodes of this rank alone wait for no message,
+/// nodes of several ranks for no inner block, and what late nodes wait for comes after their blocks, which are the
+/// rank's own.
+bool in_lanes(const Model& model, StepKind kind, const RowExchange& exchange) {
+  const bool any_late = model.first_late < static_cast<int>(model.shared.nodes.extent(0));
+  return kind == StepKind::advancing && exchange.between_devices() && outer_blocks_may_go_beside(model) &&
+         model.subcycling.levels == 1 && (!any_late || exchange.share().has_late_blocks());
+}
+
+/// Loads in their lane, beams in that of contact. What needs both waits for beams.
+std::vector<Task> loads_in_lanes(std::vector<Task> loads, RowExchange& exchange) {
+  std::vector<Task> tasks;
+  for (Task& task : loads) {
+    const bool of_beams = task.lane == OwnForceLanes::beams;
+    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task(RankLane::loads, {RankLane::contact}));
+    append(tasks, in_space({std::move(task)}, exchange.space(of_beams ? RankLane::contact : RankLane::loads)));
+  }
+  return tasks;
 }
 
 }  // namespace
 
-std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, std::vector<Task> others) {
+std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, BesideElements beside) {
   const RankShare& share = exchange.share();
-  const bool beside = exchange.between_devices() && outer_blocks_may_go_beside(model);
+  const auto elements = [&](const std::vector<Array<int*>>& blocks, bool first) {
+    return element_tasks(model, model, model.contacts, model, kind, {}, {&blocks, first});
+  };
+  const bool any_late = share.has_late_blocks();
+  std::vector<Task> late, outer = elements(share.outer, !any_late), inner = elements(share.inner, false);
+  if (any_late) late = elements(share.late, true);
   std::vector<Task> tasks = exchange.begin_tasks();
-  // In the default order they would keep the inner blocks waiting until the outer ones are done. They are small and
-  // long in line: the outer blocks leave them room where these come second.
-  append(tasks, in_space(std::move(others), beside ? exchange.side_space() : nullptr));
-  append(tasks, in_space(element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true}),
-                         beside ? exchange.outer_space() : nullptr));
-  tasks.push_back(exchange.send_task(beside));
-  append(tasks, element_tasks(model, model, model.contacts, model, kind, {}, {&share.inner, false}));
+  if (!exchange.between_devices() || !outer_blocks_may_go_beside(model)) {
+    for (std::vector<Task>* next : {&beside.loads, &beside.contact, &late, &outer}) append(tasks, std::move(*next));
+    tasks.push_back(exchange.send_task(false));
+    append(tasks, std::move(inner));
+    tasks.push_back(exchange.receive_task());
+    return tasks;
+  }
+  // Loads and contact are small and long in line: blocks leave them room where these come second.
+  append(tasks, loads_in_lanes(std::move(beside.loads), exchange));
+  append(tasks, in_space(std::move(beside.contact), exchange.space(RankLane::contact)));
+  append(tasks, in_space(std::move(late), exchange.space(RankLane::late)));
+  append(tasks, in_space(std::move(outer), exchange.space(RankLane::outer)));
+  append(tasks, std::move(inner));
+  const bool lanes = in_lanes(model, kind, exchange);
+  if (lanes) {
+    using Lane = RankLane;
+    tasks.push_back(exchange.wait_task(Lane::loads, {Lane::late, Lane::contact}));
+    tasks.push_back(exchange.wait_task(Lane::inner, {Lane::outer, Lane::late, Lane::loads, Lane::contact}));
+  }
+  if (any_late) tasks.push_back(exchange.wait_task(RankLane::outer, {RankLane::late}));
+  tasks.push_back(exchange.send_task(true));
+  tasks.push_back(lanes ? exchange.wait_task(RankLane::outer, {RankLane::loads, RankLane::contact})
+                        : exchange.receive_task());
+  return tasks;
+}
+
+std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& exchange, BesideNodes beside) {
+  std::vector<Task> tasks = std::move(beside.before);
+  if (!in_lanes(model, kind, exchange)) {
+    append(tasks, node_tasks(model, model.elements, model, kind, {}, EarlyNodes::with_others));
+    append(tasks, std::move(beside.after));
+    return tasks;
+  }
+  const ExecutionSpace* const of_late = exchange.space(RankLane::loads);
+  RankNodeTasks nodes = rank_node_tasks(model, model);
+  append(tasks, std::move(nodes.late));
+  append(tasks, std::move(beside.after));
+  tasks = in_space(std::move(tasks), of_late);
+  append(tasks, std::move(nodes.own));
+  append(tasks, in_space(std::move(nodes.between_ranks), exchange.space(RankLane::outer)));
   tasks.push_back(exchange.receive_task());
   return tasks;
 }
 
-std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exchange) {
+std::vector<Task> own_force_tasks(Model& model, StepKind kind, std::vector<Task> locate, RowExchange* exchange) {
   const GoingAlong along = going_along(model, kind, exchange);
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
   append(tasks, frame_tasks(model, model, kind));
-  constexpr int of_contact = OwnForceLanes::contact;
-  std::vector<Task> others = load_tasks(model, model, model.beams, kind, along);
-  append(others, placed(wait_before_search(model, true, exchange), Stage::own_forces, of_contact));
-  append(others, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, of_contact));
+  const auto of_contact = [](std::vector<Task> of) {
+    return placed(std::move(of), Stage::own_forces, OwnForceLanes::contact);
+  };
+  std::vector<Task> loads = load_tasks(model, model, model.beams, kind, along);
+  std::vector<Task> springs = of_contact(contact_tasks(model.scene, model, model.contacts, kind, along));
+  locate = of_contact(std::move(locate));
   if (exchange != nullptr) {
-    append(tasks, shared_force_tasks(model, kind, *exchange, std::move(others)));
+    BesideElements beside{std::move(loads), of_contact(wait_before_search(model, true, exchange))};
+    append(beside.contact, std::move(springs));
+    append(beside.contact, of_contact(wait_before_search(model, false, exchange)));
+    append(beside.contact, std::move(locate));
+    append(tasks, shared_force_tasks(model, kind, *exchange, std::move(beside)));
     return tasks;
   }
-  append(tasks, std::move(others));
+  append(tasks, std::move(loads));
+  append(tasks, std::move(springs));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, along));
+  append(tasks, std::move(locate));
   return tasks;
 }
 
 std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation, RowExchange* exchange) {
-  std::vector<Task> tasks = own_force_tasks(model, kind, exchange);
-  const MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
-  append(tasks, placed(wait_before_search(model, false, exchange), Stage::own_forces, OwnForceLanes::contact));
-  append(tasks, placed(multipliers.locate, Stage::own_forces, OwnForceLanes::contact));
+  MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
+  std::vector<Task> tasks = own_force_tasks(model, kind, std::move(multipliers.locate), exchange);
   append(tasks, tie_tasks(model, model.ties));
   append(tasks, placed(non_reflecting_tasks(model, model.ends, kind),
                        model.ties.at_ends ? Stage::last_forces : Stage::passed_on, 1));
-  append(tasks, placed(multipliers.find, Stage::motion, MotionLanes::contact));
+  append(tasks, placed(std::move(multipliers.find), Stage::motion, MotionLanes::contact));
   return tasks;
 }
 
 Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
-  Plan plan{force_tasks(model, kind, nullptr, exchange), motion_tasks(model, kind, exchange)};
-  const auto is_apart = [](const Task& task) { return task.begins == Begins::after_own_forces; };
-  if (exchange != nullptr && std::any_of(plan.motion.begin(), plan.motion.end(), is_apart))
-    put_others_beside(plan, *exchange);
+  Plan plan{force_tasks(model, kind, nullptr, exchange), {}};
+  if (exchange == nullptr) {
+    plan.motion = motion_tasks(model, kind);
+    return plan;
+  }
+  if (in_lanes(model, kind, *exchange))
+    for (Task& task : plan.forces)
+      if (task.stage > Stage::own_forces) task = in_space({std::move(task)}, exchange->space(RankLane::loads)).front();
+  plan.motion = rank_motion_tasks(model, kind, *exchange, {motions_of_others(model, kind), tied_motion(model, kind)});
   return plan;
 }
 

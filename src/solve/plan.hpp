@@ -23,13 +23,28 @@ void run_tasks(const std::vector<Task>& tasks, const Instant& instant, long step
 std::vector<std::string> describe_plan(const Plan& plan);
 
 /// Forces that follow from where the nodes are and how they move, not from other forces: loads, contact by springs,
-/// elements. Every way of evaluating forces begins with them.
+/// elements; then the search of multipliers. Every way of evaluating forces begins with them.
+/// @param locate the search of multipliers
 /// @param exchange of a model that other ranks share; null: all elements are computed here
-std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exchange = nullptr);
+std::vector<Task> own_force_tasks(Model& model, StepKind kind, std::vector<Task> locate = {},
+                                  RowExchange* exchange = nullptr);
+
+/// What a rank computes besides elements, which these do not wait for: loads; contact by springs, and the search of
+/// multipliers.
+struct BesideElements {
+  std::vector<Task> loads, contact;
+};
 
 /// Elements of a rank's blocks, their rows sent while the inner ones are computed, and those of others received.
-/// @param others what the rank computes besides, which nothing of that depends on: loads, contact by springs
-std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, std::vector<Task> others);
+std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, BesideElements beside);
+
+/// What rank 0 moves besides: where a motion is prescribed, and beams; after all other nodes, those that are tied.
+struct BesideNodes {
+  std::vector<Task> before, after;
+};
+
+/// Motion of a rank's nodes.
+std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& exchange, BesideNodes beside);
 
 /// All forces of an instant.
 /// @param relaxation see multiplier_tasks

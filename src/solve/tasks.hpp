@@ -185,6 +185,14 @@ enum class EarlyNodes {
 std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
                              StepKind kind, GoingAlong along, EarlyNodes early);
 
+/// (f to j) The same of a rank, in an advancing step without subcycling, where they need not wait for each other.
+struct RankNodeTasks {
+  std::vector<Task> own;            ///< that wait for elements of this rank, contact and loads
+  std::vector<Task> between_ranks;  ///< for rows of other ranks, too, and for no inner blocks
+  std::vector<Task> late;           ///< see NodalState::first_late
+};
+RankNodeTasks rank_node_tasks(const NodalState& nodal, const LoadModel& loads);
+
 /// Tied nodes after their masters.
 Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind);
 

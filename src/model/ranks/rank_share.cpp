@@ -1,6 +1,7 @@
 #include "model/ranks/rank_share.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "model/elements/element_histories.hpp"
 #include "model/host_copy.hpp"
@@ -23,28 +24,55 @@ void each_node_of_blocks(const Model& model, const BlockPartition& partition, co
   }
 }
 
-/// Of the model's shared nodes, in their order, those that a rank moves.
+/// By node, those from NodalState::first_late on; none where one of them is `outer`, so that others' rows must come
+/// before it moves.
+std::vector<char> late_nodes(const Model& model, const std::vector<char>& outer) {
+  std::vector<char> late(model.nodes.count, 0);
+  if (model.subcycling.levels > 1) return late;
+  const auto shared = to_host(model.shared.nodes);
+  for (std::size_t i = model.first_late; i < shared.extent(0); ++i) {
+    const int n = shared(i).node & ~special_bit;
+    if (outer[n] != 0) return std::vector<char>(model.nodes.count, 0);
+    late[n] = 1;
+  }
+  return late;
+}
+
+/// Of the model's shared nodes those that a rank moves. Those with blocks of other ranks are put together where plain
+/// nodes end and special ones begin, so that all others may move before rows come; else they stay in their order.
 void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
   SharedNodes& shared = model.shared;
   const auto all = to_host(shared.nodes);
   const auto all_special = to_host(shared.special);
   const auto first = to_host(model.nodes.first_partial);
-  std::vector<SharedNode> kept;
-  std::vector<SpecialNode> special;
-  std::vector<int> kept_before(all.extent(0) + 1, 0);
-  for (std::size_t i = 0; i < all.extent(0); ++i) {
-    const int n = all(i).node & ~special_bit;
+  const int count = static_cast<int>(all.extent(0));
+  const auto node_of = [&](int i) { return all(i).node & ~special_bit; };
+  std::vector<int> kept, kept_before(count + 1, 0);
+  for (int i = 0; i < count; ++i) {
+    const int n = node_of(i);
     const bool of_no_block = first(n + 1) == first(n);
-    if (layout.ranks.has(n, rank) || (rank == 0 && of_no_block)) {
-      kept.push_back(all(i));
-      if (i >= static_cast<std::size_t>(shared.first_special)) special.push_back(all_special(i - shared.first_special));
-    }
+    if (layout.ranks.has(n, rank) || (rank == 0 && of_no_block)) kept.push_back(i);
     kept_before[i + 1] = static_cast<int>(kept.size());
   }
-  shared = {to_device("shared nodes of this rank", kept), to_device("special nodes of this rank", special),
-            kept_before[shared.first_special]};
+  const int first_special = kept_before[shared.first_special];
+  model.first_late = kept_before[model.first_late];
   model.early_shared = kept_before[model.early_shared];
   for (int& end : model.subcycling.shared_end) end = kept_before[end];
+  if (model.subcycling.levels == 1) {  // else they are in order of levels
+    const auto special = kept.begin() + first_special, late = kept.begin() + model.first_late;
+    const auto is_between = [&](int i) { return layout.ranks.several(node_of(i)); };
+    const auto begin = std::stable_partition(kept.begin(), special, std::not_fn(is_between));
+    const auto end = std::stable_partition(special, late, is_between);
+    model.between_ranks = {static_cast<int>(begin - kept.begin()), static_cast<int>(end - kept.begin())};
+  }
+  std::vector<SharedNode> nodes;
+  std::vector<SpecialNode> specials;
+  for (int i : kept) {
+    nodes.push_back(all(i));
+    if (i >= shared.first_special) specials.push_back(all_special(i - shared.first_special));
+  }
+  shared = {to_device("shared nodes of this rank", nodes), to_device("special nodes of this rank", specials),
+            first_special};
 }
 
 /// Blocks and parts of lists that the rank's accounts and histories sum.
@@ -192,18 +220,22 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   share.ranks = partition.ranks;
   std::vector<char> outer(model.nodes.count, 0);
   for (int n = 0; n < model.nodes.count; ++n) outer[n] = layout.ranks.several(n) && layout.ranks.has(n, rank) ? 1 : 0;
+  const std::vector<char> late = late_nodes(model, outer);
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
     const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
-    std::vector<int> lists[2];
+    std::vector<int> of_late, of_outer, of_inner;
     for (int p = 0; p < group.blocks.count; ++p) {
       if (partition.owner[g][p] != rank) continue;
-      bool any = false;
-      for (int l = 0; l < count(p); ++l) any = any || outer[node(p * group.blocks.node_stride + l) & ~advance_bit] != 0;
-      lists[any ? 0 : 1].push_back(p);
+      const int* const nodes = node.data() + static_cast<std::size_t>(p) * group.blocks.node_stride;
+      const auto has_any = [&](const std::vector<char>& of) {
+        return std::any_of(nodes, nodes + count(p), [&](int n) { return of[n & ~advance_bit] != 0; });
+      };
+      (has_any(late) ? of_late : has_any(outer) ? of_outer : of_inner).push_back(p);
     }
-    share.outer.push_back(to_device("outer blocks", lists[0]));
-    share.inner.push_back(to_device("inner blocks", lists[1]));
+    share.late.push_back(to_device("blocks with late nodes", of_late));
+    share.outer.push_back(to_device("outer blocks", of_outer));
+    share.inner.push_back(to_device("inner blocks", of_inner));
   }
   std::vector<int> sent, received;
   for (int other = 0; other < partition.ranks; ++other) {

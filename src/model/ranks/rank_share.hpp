@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
@@ -76,11 +77,17 @@ struct RankShare {
   };
 
   int rank = 0, ranks = 1;
-  std::vector<Array<int*>> outer;  ///< by group: blocks with nodes of other ranks too, computed first, so that their
-                                   ///< rows are under way while the others are computed
-  std::vector<Array<int*>> inner;  ///< by group: all others
+  std::vector<Array<int*>> late;   ///< by group: blocks with nodes from NodalState::first_late on, computed first of
+                                   ///< all; empty where such a node has blocks of other ranks
+  std::vector<Array<int*>> outer;  ///< by group: of the others those with nodes of other ranks too, computed next, so
+                                   ///< that their rows are under way while the rest is computed
+  std::vector<Array<int*>> inner;  ///< by group: the rest
   std::vector<Neighbour> neighbours;
   Array<int*> sent, received;  ///< rows of the partial forces, neighbour by neighbour
+
+  bool has_late_blocks() const {
+    return std::any_of(late.begin(), late.end(), [](const Array<int*>& blocks) { return blocks.extent(0) > 0; });
+  }
 };
 
 /// A rank's share. From then on the model's shared nodes are those of its blocks, on rank 0 also those of no block, and

@@ -19,6 +19,16 @@
 
 namespace railwave {
 
+void DeviceMessages::begin() {
+  for (RankLane lane : {RankLane::outer, RankLane::late, RankLane::loads, RankLane::contact})
+    wait(lane, RankLane::inner);
+}
+
+void DeviceMessages::finish() {
+  for (RankLane lane : {RankLane::outer, RankLane::late, RankLane::loads, RankLane::contact})
+    wait(RankLane::inner, lane);
+}
+
 #if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
 
 namespace {
@@ -34,7 +44,7 @@ void check(cudaError_t result, const char* what) {
   throw std::runtime_error(fmt::format("CUDA could not {}: {}", what, cudaGetErrorString(result)));
 }
 
-/// A mark in the order of a stream, for which another stream waits.
+/// A mark in the order of a stream, for which other streams wait.
 class Mark {
  public:
   Mark() { check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "make an event"); }
@@ -42,6 +52,7 @@ class Mark {
   Mark(const Mark&) = delete;
   Mark& operator=(const Mark&) = delete;
 
+  /// Whoever has waited for it before waits for where it was then.
   void pass(cudaStream_t from, cudaStream_t to) const {
     check(cudaEventRecord(event_, from), "record an event");
     check(cudaStreamWaitEvent(to, event_, 0), "wait for an event");
@@ -120,7 +131,8 @@ class NcclMessages : public DeviceMessages {
  public:
   /// @param id of rank 0, known to all
   NcclMessages(const ncclUniqueId& id, const Transport& transport, int channels)
-      : space_(stream_.get()), side_space_(side_.get()) {
+      : spaces_{ExecutionSpace(), ExecutionSpace(outer_.get()), ExecutionSpace(late_.get()),
+                ExecutionSpace(loads_.get()), ExecutionSpace(contact_.get())} {
     // Rows go from one rank to one other. Multicast would be set up for nothing.
     setenv("NCCL_NVLS_ENABLE", "0", 0);
     setenv("NCCL_MAX_P2P_NCHANNELS", std::to_string(channels).c_str(), 0);
@@ -132,35 +144,27 @@ class NcclMessages : public DeviceMessages {
       ncclCommAbort(ranks_);
       return;
     }
-    cudaStreamSynchronize(stream_.get());
+    cudaStreamSynchronize(outer_.get());
     ncclCommDestroy(ranks_);
   }
   NcclMessages(const NcclMessages&) = delete;
   NcclMessages& operator=(const NcclMessages&) = delete;
 
-  const ExecutionSpace& space() const override { return space_; }
+  const ExecutionSpace& space(RankLane lane) const override { return spaces_[static_cast<int>(lane)]; }
 
-  const ExecutionSpace& side_space() const override { return side_space_; }
-
-  void begin() override {
-    begun_.pass(ExecutionSpace().cuda_stream(), stream_.get());
-    side_begun_.pass(ExecutionSpace().cuda_stream(), side_.get());
+  void wait(RankLane who, RankLane for_whom) override {
+    marks_[static_cast<int>(for_whom)].pass(space(for_whom).cuda_stream(), space(who).cuda_stream());
   }
 
   void exchange(const std::vector<Message>& messages) override {
     check(ncclGroupStart(), "begin");
     for (const Message& one : messages) {
       if (one.sent_bytes > 0)
-        check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, stream_.get()), "send");
+        check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, outer_.get()), "send");
       if (one.received_bytes > 0)
-        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, stream_.get()), "receive");
+        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, outer_.get()), "receive");
     }
     check(ncclGroupEnd(), "exchange rows");
-  }
-
-  void finish() override {
-    done_.pass(stream_.get(), ExecutionSpace().cuda_stream());
-    side_done_.pass(side_.get(), ExecutionSpace().cuda_stream());
   }
 
   std::unique_ptr<Recorded> record(const std::function<void()>& launch) override {
@@ -169,10 +173,10 @@ class NcclMessages : public DeviceMessages {
 
  private:
   // What has to begin while others fill the device comes first: it is small, and long in line.
-  UrgentStream side_{0}, stream_{1};
-  ExecutionSpace space_, side_space_;
+  UrgentStream loads_{0}, contact_{0}, late_{1}, outer_{2};
+  const ExecutionSpace spaces_[rank_lanes];  ///< in the order of RankLane
+  Mark marks_[rank_lanes];
   ncclComm_t ranks_ = nullptr;
-  Mark begun_, done_, side_begun_, side_done_;
   const int exceptions_ = std::uncaught_exceptions();
 };
 

@@ -23,7 +23,7 @@ Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   if (model.relative.active()) plan.forces.push_back(corotating_frames_task(model, model.elements, model, kind));
   append(plan.forces, frame_tasks(model, model, kind));
   append(plan.forces, shared_force_tasks(model, kind, exchange, {}));
-  plan.motion = node_tasks(model, model.elements, model, kind, {}, EarlyNodes::with_others);
+  plan.motion = rank_motion_tasks(model, kind, exchange, {});
   return plan;
 }
 

@@ -159,17 +159,22 @@ std::vector<Task> RowExchange::begin_tasks() {
   return {{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }}};
 }
 
-const ExecutionSpace* RowExchange::outer_space() const {
-  return buffers_->on_devices ? &buffers_->on_devices->space() : nullptr;
+const ExecutionSpace* RowExchange::space(RankLane lane) const {
+  return buffers_->on_devices ? &buffers_->on_devices->space(lane) : nullptr;
 }
 
-const ExecutionSpace* RowExchange::side_space() const {
-  return buffers_->on_devices ? &buffers_->on_devices->side_space() : nullptr;
+Task RowExchange::wait_task(RankLane who, std::vector<RankLane> for_whom) {
+  return placed({{"wait for what goes on beside", "b, c",
+                  [this, who, for_whom = std::move(for_whom)](const Instant&) {
+                    for (RankLane lane : for_whom) buffers_->on_devices->wait(who, lane);
+                  }}},
+                Stage::own_forces, 0)
+      .front();
 }
 
 template <class S>
 void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const {
-  const ExecutionSpace& space = *outer_space();
+  const ExecutionSpace& space = buffers_->on_devices->space(RankLane::outer);
   pack(space, rows, buffers, share_);
   buffers_->on_devices->exchange(device_messages_of(buffers, share_));
   unpack(space, rows, buffers, share_);
@@ -212,14 +217,6 @@ Task RowExchange::receive_task() {
   task.stage = Stage::own_forces;
   task.recordable = between_devices();
   return task;
-}
-
-Task RowExchange::side_begin_task() {
-  return {"beginning of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->begin(); }};
-}
-
-Task RowExchange::side_end_task() {
-  return {"end of what nodes move beside", "f to j", [this](const Instant&) { buffers_->on_devices->finish(); }};
 }
 
 std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {

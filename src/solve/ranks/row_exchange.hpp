@@ -51,28 +51,24 @@ class RowExchange {
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
   void wait_for_rows(long ahead = 0) const;
 
-  /// In whose order outer blocks may launch their forces, beside all others; null: the default one, as the host waits
-  /// for rows.
-  const ExecutionSpace* outer_space() const;
-  /// In whose order loads and contact may be launched then; null: the default one.
-  const ExecutionSpace* side_space() const;
-  /// The first of a step: what is launched there comes after the step before.
+  /// In whose order a lane launches; null: in the default one, as the host waits for rows.
+  const ExecutionSpace* space(RankLane lane) const;
+  /// The first of a step: what is launched in other lanes than the inner one comes after the step before.
   std::vector<Task> begin_tasks();
+  /// Between devices: what a lane launches from then on comes after what the others have launched.
+  Task wait_task(RankLane who, std::vector<RankLane> for_whom);
   /// To come after the outer blocks' forces: the rows are on their way from then on.
-  /// @param beside these are in outer_space()
+  /// @param beside these are in lanes of their own
   Task send_task(bool beside);
-  /// Before anything that needs all forces.
+  /// Before anything that needs rows of others but in the outer lane. Between devices the inner lane waits for all
+  /// others.
   Task receive_task();
-  /// Between devices, after it: what is launched in side_space() from then on may go beside others until the second of
-  /// them.
-  Task side_begin_task();
-  Task side_end_task();
 
   /// Between devices: a rank's steps as a graph, see DeviceMessages::record().
   std::unique_ptr<DeviceMessages::Recorded> record(const std::function<void()>& launch);
   /// Launches such steps. The host comes no more than some graphs before the device.
   void repeat(const DeviceMessages::Recorded& steps);
-  /// Launches, between devices, something beside steps that may be in outer_space() or side_space().
+  /// Launches, between devices, something beside steps that may be in any lane.
   void in_order(const std::function<void()>& launch) const;
 
  private:
@@ -82,7 +78,7 @@ class RowExchange {
   /// are, while a host is done with them. Where a host's memory stands for a device's, it does as for a device.
   bool starts_late() const { return on_device || way_ == RowWay::mpi; }
 
-  /// In outer_space(), all of it.
+  /// In the outer lane, all of it.
   template <class S>
   void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
 

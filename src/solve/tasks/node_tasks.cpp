@@ -86,6 +86,23 @@ Task plain_shared_task(const NodalState& nodal, const SharedRange& range) {
       }};
 }
 
+/// Plain nodes of a range and others have lanes of their own, where plain ones have a launch of theirs.
+std::vector<Task> placed_nodes(const NodalState& nodal, const LoadModel& loads, bool rows_are_due,
+                               const SharedRange& range, Stage stage, int lane, Begins begins) {
+  const int first_special = std::clamp(nodal.shared.first_special, range.begin, range.end);
+  const bool plain_apart = on_device && (first_special == range.end || nodal.plain_apart);
+  const int others = plain_apart ? first_special : range.begin;
+  std::vector<Task> tasks;
+  const auto add = [&](Task task, int lane_of_part) {
+    task.bulk = stage == Stage::motion;
+    task.begins = begins;
+    append(tasks, placed({std::move(task)}, stage, lane_of_part));
+  };
+  if (others < range.end) add(shared_task(nodal, loads, rows_are_due, {range.name, others, range.end}), lane + 1);
+  if (range.begin < others) add(plain_shared_task(nodal, {range.name + ", plain", range.begin, others}), lane);
+  return tasks;
+}
+
 Task node_task(const NodalState& nodal) {
   return {"nodes", "f to j", [&nodal](const Instant& instant) {
             const int own = static_cast<int>(nodal.own_nodes.extent(0));
@@ -153,22 +170,12 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
   const bool relative = nodal.relative.active();
   if (!inner_have_moved && !relative) return placed({node_task(nodal)}, Stage::other_motion, 0);
   if (!inner_have_moved) append(tasks, placed({relative_blocks_task(nodal, groups)}, Stage::other_motion, 0));
-  // Plain nodes and others in lanes of their own.
-  const auto add = [&](const SharedRange& range, Stage stage, int lane, Begins begins = Begins::in_order) {
-    const int first_special = std::clamp(nodal.shared.first_special, range.begin, range.end);
-    const bool plain_apart = on_device && (first_special == range.end || nodal.plain_apart);
-    const int others = plain_apart ? first_special : range.begin;
-    const auto add_part = [&](Task task, int lane_of_part) {
-      task.bulk = stage == Stage::motion;
-      task.begins = begins;
-      append(tasks, placed({std::move(task)}, stage, lane_of_part));
-    };
-    if (others < range.end) add_part(shared_task(nodal, loads, along.sets, {range.name, others, range.end}), lane + 1);
-    if (range.begin < others) add_part(plain_shared_task(nodal, {range.name + ", plain", range.begin, others}), lane);
-  };
   const bool divided = inner_have_moved && early_nodes != EarlyNodes::with_others;
   const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = divided ? nodal.early_shared : 0;
   const std::string name = "nodes that element blocks share";
+  const auto add = [&](const SharedRange& range, Stage stage, int lane, Begins begins = Begins::in_order) {
+    append(tasks, placed_nodes(nodal, loads, along.sets, range, stage, lane, begins));
+  };
   if (divided && nodal.parts.group >= 0) {
     const int plain = nodal.shared.first_special;
     add({name + ", that nothing but elements concerns", 0, plain}, Stage::motion, MotionLanes::early_nodes,
@@ -181,6 +188,19 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
         early_nodes == EarlyNodes::apart ? Begins::after_own_forces : Begins::in_order);
   add({name, early, all}, Stage::other_motion, 0);
   return tasks;
+}
+
+RankNodeTasks rank_node_tasks(const NodalState& nodal, const LoadModel& loads) {
+  const std::string name = "nodes that element blocks share";
+  const IndexRange& between = nodal.between_ranks;
+  const auto tasks = [&](const std::string& which, int begin, int end) {
+    return placed_nodes(nodal, loads, false, {name + which, begin, end}, Stage::other_motion, 0, Begins::in_order);
+  };
+  RankNodeTasks all{tasks(", of this rank alone", between.end, nodal.first_late),
+                    tasks(", of several ranks", between.begin, between.end),
+                    tasks(", that wait for others", nodal.first_late, static_cast<int>(nodal.shared.nodes.extent(0)))};
+  append(all.own, tasks(", of this rank alone", 0, between.begin));
+  return all;
 }
 
 }  // namespace railwave

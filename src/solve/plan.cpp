@@ -98,18 +98,6 @@ std::vector<Task> wait_before_search(const Model& model, bool springs, const Row
   return {task};
 }
 
-/// @param space null: the tasks stay in the default one
-std::vector<Task> in_space(std::vector<Task> tasks, const ExecutionSpace* space) {
-  if (space == nullptr) return tasks;
-  for (Task& task : tasks)
-    task.run = [run = std::move(task.run), space](const Instant& instant) {
-      Instant here = instant;
-      here.own_space = space;
-      run(here);
-    };
-  return tasks;
-}
-
 /// Whether a rank's lanes go on side by side up to the end of a step: nodes of this rank alone wait for no message,
 /// nodes of several ranks for no inner block, and what late nodes wait for comes after their blocks, which are the
 /// rank's own.
@@ -120,12 +108,12 @@ bool in_lanes(const Model& model, StepKind kind, const RowExchange& exchange) {
 }
 
 /// Loads in their lane, beams in that of contact. What needs both waits for beams.
-std::vector<Task> loads_in_lanes(std::vector<Task> loads, RowExchange& exchange) {
+std::vector<Task> loads_in_lanes(std::vector<Task> loads, const RowExchange& exchange) {
   std::vector<Task> tasks;
   for (Task& task : loads) {
-    const bool of_beams = task.lane == OwnForceLanes::beams;
-    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task(RankLane::loads, {RankLane::contact}));
-    append(tasks, in_space({std::move(task)}, exchange.space(of_beams ? RankLane::contact : RankLane::loads)));
+    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::contact}}));
+    const RankLane lane = task.lane == OwnForceLanes::beams ? RankLane::contact : RankLane::loads;
+    append(tasks, exchange.in_lane(lane, {std::move(task)}));
   }
   return tasks;
 }
@@ -133,6 +121,7 @@ std::vector<Task> loads_in_lanes(std::vector<Task> loads, RowExchange& exchange)
 }  // namespace
 
 std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, BesideElements beside) {
+  using Lane = RankLane;
   const RankShare& share = exchange.share();
   const auto elements = [&](const std::vector<Array<int*>>& blocks, bool first) {
     return element_tasks(model, model, model.contacts, model, kind, {}, {&blocks, first});
@@ -150,20 +139,25 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
   }
   // Loads and contact are small and long in line: blocks leave them room where these come second.
   append(tasks, loads_in_lanes(std::move(beside.loads), exchange));
-  append(tasks, in_space(std::move(beside.contact), exchange.space(RankLane::contact)));
-  append(tasks, in_space(std::move(late), exchange.space(RankLane::late)));
-  append(tasks, in_space(std::move(outer), exchange.space(RankLane::outer)));
+  append(tasks, exchange.in_lane(Lane::contact, std::move(beside.contact)));
+  append(tasks, exchange.in_lane(Lane::late, std::move(late)));
+  append(tasks, exchange.in_lane(Lane::outer, std::move(outer)));
   append(tasks, std::move(inner));
-  const bool lanes = in_lanes(model, kind, exchange);
-  if (lanes) {
-    using Lane = RankLane;
-    tasks.push_back(exchange.wait_task(Lane::loads, {Lane::late, Lane::contact}));
-    tasks.push_back(exchange.wait_task(Lane::inner, {Lane::outer, Lane::late, Lane::loads, Lane::contact}));
-  }
-  if (any_late) tasks.push_back(exchange.wait_task(RankLane::outer, {RankLane::late}));
+  tasks.push_back(exchange.wait_task({{Lane::messages, Lane::outer}, {Lane::messages, Lane::late}}));
   tasks.push_back(exchange.send_task(true));
-  tasks.push_back(lanes ? exchange.wait_task(RankLane::outer, {RankLane::loads, RankLane::contact})
-                        : exchange.receive_task());
+  if (!in_lanes(model, kind, exchange)) {
+    tasks.push_back(exchange.receive_task());
+    return tasks;
+  }
+  // Before late nodes, nodes of this rank alone and nodes of several ranks.
+  tasks.push_back(exchange.wait_task({{Lane::inner, Lane::outer},
+                                      {Lane::inner, Lane::late},
+                                      {Lane::inner, Lane::loads},
+                                      {Lane::inner, Lane::contact},
+                                      {Lane::messages, Lane::loads},
+                                      {Lane::messages, Lane::contact},
+                                      {Lane::loads, Lane::late},
+                                      {Lane::loads, Lane::contact}}));
   return tasks;
 }
 
@@ -174,13 +168,12 @@ std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& ex
     append(tasks, std::move(beside.after));
     return tasks;
   }
-  const ExecutionSpace* const of_late = exchange.space(RankLane::loads);
   RankNodeTasks nodes = rank_node_tasks(model, model);
   append(tasks, std::move(nodes.late));
   append(tasks, std::move(beside.after));
-  tasks = in_space(std::move(tasks), of_late);
+  tasks = exchange.in_lane(RankLane::loads, std::move(tasks));
   append(tasks, std::move(nodes.own));
-  append(tasks, in_space(std::move(nodes.between_ranks), exchange.space(RankLane::outer)));
+  append(tasks, exchange.in_lane(RankLane::messages, std::move(nodes.between_ranks)));
   tasks.push_back(exchange.receive_task());
   return tasks;
 }
@@ -230,7 +223,7 @@ Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
   }
   if (in_lanes(model, kind, *exchange))
     for (Task& task : plan.forces)
-      if (task.stage > Stage::own_forces) task = in_space({std::move(task)}, exchange->space(RankLane::loads)).front();
+      if (task.stage > Stage::own_forces) task = exchange->in_lane(RankLane::loads, {std::move(task)}).front();
   plan.motion = rank_motion_tasks(model, kind, *exchange, {motions_of_others(model, kind), tied_motion(model, kind)});
   return plan;
 }

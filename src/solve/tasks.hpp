@@ -14,6 +14,7 @@
 #include "model/elements/element_model.hpp"
 #include "model/loads/load_model.hpp"
 #include "model/nodal_state.hpp"
+#include "solve/ranks/rank_lanes.hpp"
 
 /// The tasks of which plans are made, by physics. A task holds references to the modules that it works on, which must
 /// outlive it. Lists are empty where a scene has none of it.
@@ -82,7 +83,9 @@ struct Task {
   /// More than a device has room for at a time: where tasks run side by side, others get room first.
   bool bulk = false;
   Begins begins = Begins::in_order;
-  int part = 0;  ///< of elements that are computed in parts, see ElementParts
+  int part = 0;                          ///< of elements that are computed in parts, see ElementParts
+  RankLane rank_lane = RankLane::inner;  ///< between ranks' GPUs: in whose order it launches
+  std::vector<LaneWait> waits = {};      ///< there: before it
   /// Whether all that it does is to launch the same kernels at each step that it is due. If not, it reads nothing that
   /// its step's other tasks write, and may run before them all.
   bool recordable = true;

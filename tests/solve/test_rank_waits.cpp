@@ -1,41 +1,14 @@
 #include <catch2/catch_test_macros.hpp>
-#include <cstdlib>
-#include <cstring>
 
+#include "solve/plan.hpp"
 #include "solve/ranks/row_exchange.hpp"
+#include "tests/solve/one_of_two.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
 
 namespace {
-
-/// Rank 0 of two, of which the other sends zeros.
-class OneOfTwo : public Transport {
- public:
-  explicit OneOfTwo(std::function<void()> waited) : waited_(std::move(waited)) {
-    setenv("RAILWAVE_RANK_MESSAGES", "host", 1);  // NCCL would wait for the other rank
-  }
-  ~OneOfTwo() override { unsetenv("RAILWAVE_RANK_MESSAGES"); }
-  int rank() const override { return 0; }
-  int ranks() const override { return 2; }
-  bool takes_device_memory() const override { return false; }
-  void broadcast(void* /*data*/, std::size_t /*bytes*/) override {}
-  void start_send(int /*to*/, const void* /*data*/, std::size_t /*bytes*/) override {}
-  void start_receive(int /*from*/, void* data, std::size_t bytes) override { std::memset(data, 0, bytes); }
-  void finish() override {}
-  void wait_until(const std::function<bool()>& come) override {
-    all_came = come() && all_came;
-    waited_();
-  }
-  int first_to_refuse(bool yes) override { return yes ? -1 : 0; }
-  [[noreturn]] void end_all() override { std::abort(); }
-
-  bool all_came = true;  ///< CUDA 13.0's front end does not come to an end where this class has Catch's macros
-
- private:
-  std::function<void()> waited_;
-};
 
 /// The last block of the lower body is another rank's.
 BlockPartition last_block_of_another(const Model& model) {

@@ -7,18 +7,9 @@
 
 #include "kernels/support/spaces.hpp"
 #include "model/ranks/transport.hpp"
+#include "solve/ranks/rank_lanes.hpp"
 
 namespace railwave {
-
-/// What a rank launches side by side: each lane in an order of its own.
-enum class RankLane : int {
-  inner,    ///< the default order: blocks without late nodes or nodes of other ranks, then all nodes but these
-  outer,    ///< blocks with nodes of other ranks, messages, and these nodes
-  late,     ///< blocks with late nodes, which ties, multipliers, prescribed motions or ends move
-  loads,    ///< loads; then what moves late nodes
-  contact,  ///< contact, and beams
-};
-inline constexpr int rank_lanes = 5;
 
 /// Messages from one GPU's memory to another's, in the order of a lane: the host waits for none of them.
 class DeviceMessages {
@@ -34,17 +25,12 @@ class DeviceMessages {
     std::size_t received_bytes;
   };
 
-  /// Launches of other lanes than the inner one come before its own where both wait for a place on the device.
+  /// Where launches of several lanes wait for a place on the device, those of the inner one come last.
   virtual const ExecutionSpace& space(RankLane lane) const = 0;
-  /// What is launched in a lane from now on comes after all that has been launched in another.
-  virtual void wait(RankLane who, RankLane for_whom) = 0;
-  /// All wait for the inner lane.
-  void begin();
-  /// The inner lane waits for all.
-  void finish();
-  /// They leave when all is done that has been launched in the outer lane; what is launched there next comes after
-  /// them.
+  virtual void wait(const LaneWait& wait) = 0;
+  /// They leave when all is done that has been launched in their lane; what is launched there next comes after them.
   virtual void exchange(const std::vector<Message>& messages) = 0;
+
   /// Launches and messages, recorded with who waits for whom.
   class Recorded {
    public:
@@ -52,9 +38,9 @@ class DeviceMessages {
     /// In the inner lane, at the cost of one launch.
     virtual void launch() const = 0;
   };
-  /// Records what is launched in the inner lane, and between begin() and finish() in the others. Nothing may be
-  /// allocated, copied or waited for meanwhile, and all ranks must have exchanged messages before. Ranks need not
-  /// record alike: messages meet in the order in which they leave.
+  /// Records what is launched in the inner lane, and in the others once they have waited for it, up to where it waits
+  /// for them. Nothing may be allocated, copied or waited for meanwhile, and all ranks must have exchanged messages
+  /// before. Ranks need not record alike: messages meet in the order in which they leave.
   virtual std::unique_ptr<Recorded> record(const std::function<void()>& launch) = 0;
 };
 

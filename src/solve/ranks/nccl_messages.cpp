@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,16 +19,6 @@
 #include "solve/launch_graph.hpp"
 
 namespace railwave {
-
-void DeviceMessages::begin() {
-  for (RankLane lane : {RankLane::outer, RankLane::late, RankLane::loads, RankLane::contact})
-    wait(lane, RankLane::inner);
-}
-
-void DeviceMessages::finish() {
-  for (RankLane lane : {RankLane::outer, RankLane::late, RankLane::loads, RankLane::contact})
-    wait(RankLane::inner, lane);
-}
 
 #if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
 
@@ -131,8 +122,12 @@ class NcclMessages : public DeviceMessages {
  public:
   /// @param id of rank 0, known to all
   NcclMessages(const ncclUniqueId& id, const Transport& transport, int channels)
-      : spaces_{ExecutionSpace(), ExecutionSpace(outer_.get()), ExecutionSpace(late_.get()),
-                ExecutionSpace(loads_.get()), ExecutionSpace(contact_.get())} {
+      : spaces_{ExecutionSpace(),
+                ExecutionSpace(outer_.get()),
+                ExecutionSpace(late_.get()),
+                ExecutionSpace(messages_.get()),
+                ExecutionSpace(loads_.get()),
+                ExecutionSpace(contact_.get())} {
     // Rows go from one rank to one other. Multicast would be set up for nothing.
     setenv("NCCL_NVLS_ENABLE", "0", 0);
     setenv("NCCL_MAX_P2P_NCHANNELS", std::to_string(channels).c_str(), 0);
@@ -144,7 +139,7 @@ class NcclMessages : public DeviceMessages {
       ncclCommAbort(ranks_);
       return;
     }
-    cudaStreamSynchronize(outer_.get());
+    cudaStreamSynchronize(messages_.get());
     ncclCommDestroy(ranks_);
   }
   NcclMessages(const NcclMessages&) = delete;
@@ -152,17 +147,17 @@ class NcclMessages : public DeviceMessages {
 
   const ExecutionSpace& space(RankLane lane) const override { return spaces_[static_cast<int>(lane)]; }
 
-  void wait(RankLane who, RankLane for_whom) override {
-    marks_[static_cast<int>(for_whom)].pass(space(for_whom).cuda_stream(), space(who).cuda_stream());
+  void wait(const LaneWait& wait) override {
+    marks_[static_cast<int>(wait.for_whom)].pass(space(wait.for_whom).cuda_stream(), space(wait.who).cuda_stream());
   }
 
   void exchange(const std::vector<Message>& messages) override {
     check(ncclGroupStart(), "begin");
     for (const Message& one : messages) {
       if (one.sent_bytes > 0)
-        check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, outer_.get()), "send");
+        check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, messages_.get()), "send");
       if (one.received_bytes > 0)
-        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, outer_.get()), "receive");
+        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, messages_.get()), "receive");
     }
     check(ncclGroupEnd(), "exchange rows");
   }
@@ -172,10 +167,12 @@ class NcclMessages : public DeviceMessages {
   }
 
  private:
-  // What has to begin while others fill the device comes first: it is small, and long in line.
-  UrgentStream loads_{0}, contact_{0}, late_{1}, outer_{2};
-  const ExecutionSpace spaces_[rank_lanes];  ///< in the order of RankLane
-  Mark marks_[rank_lanes];
+  // What has to begin while others fill the device comes first: it is small, and long in line. Messages waited for the
+  // last of all teams of lanes before them.
+  UrgentStream messages_{0}, loads_{1}, contact_{1}, late_{2}, outer_{3};
+  static constexpr int lanes = 1 + static_cast<int>(std::size(other_rank_lanes));
+  const ExecutionSpace spaces_[lanes];  ///< in the order of RankLane
+  Mark marks_[lanes];
   ncclComm_t ranks_ = nullptr;
   const int exceptions_ = std::uncaught_exceptions();
 };

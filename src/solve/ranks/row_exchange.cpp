@@ -131,10 +131,11 @@ RowWay way_by_mpi(RowWay wanted, Transport& transport) {
 
 }  // namespace
 
-RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& transport)
+RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& transport,
+                         std::unique_ptr<DeviceMessages> messages)
     : nodal_(nodal), share_(std::move(share)), transport_(transport), way_(wanted_row_way(transport)) {
   const bool single = nodal.partial.single_precision;
-  auto messages = messages_for(way_, transport, load_of(share_, single));
+  if (!messages) messages = messages_for(way_, transport, load_of(share_, single));
   way_ = messages ? RowWay::nccl : way_by_mpi(way_, transport);
   buffers_ = std::make_unique<Buffers>(share_, way_, single);
   buffers_->on_devices = std::move(messages);
@@ -154,27 +155,49 @@ void RowExchange::with_rows(const Do& act) const {
     act(nodal_.partial.in_double, buffers_->in_double);
 }
 
-std::vector<Task> RowExchange::begin_tasks() {
+std::vector<Task> RowExchange::in_lane(RankLane lane, std::vector<Task> tasks) const {
+  if (!buffers_->on_devices) return tasks;
+  const ExecutionSpace* const space = &buffers_->on_devices->space(lane);
+  for (Task& task : tasks) {
+    task.rank_lane = lane;
+    task.run = [run = std::move(task.run), space](const Instant& instant) {
+      Instant here = instant;
+      here.own_space = space;
+      run(here);
+    };
+  }
+  return tasks;
+}
+
+void RowExchange::pass(const std::vector<LaneWait>& waits) const {
+  for (const LaneWait& wait : waits) buffers_->on_devices->wait(wait);
+}
+
+Task RowExchange::after(std::vector<LaneWait> waits, Task task) const {
+  task.run = [this, waits, run = std::move(task.run)](const Instant& instant) {
+    pass(waits);
+    run(instant);
+  };
+  task.waits = std::move(waits);
+  return task;
+}
+
+Task RowExchange::wait_task(std::vector<LaneWait> waits) const {
+  Task task{"wait for what goes on beside", "b, c", [](const Instant&) {}};
+  task.stage = Stage::own_forces;
+  return after(std::move(waits), std::move(task));
+}
+
+std::vector<Task> RowExchange::begin_tasks() const {
   if (!buffers_->on_devices) return {};
-  return {{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }}};
-}
-
-const ExecutionSpace* RowExchange::space(RankLane lane) const {
-  return buffers_->on_devices ? &buffers_->on_devices->space(lane) : nullptr;
-}
-
-Task RowExchange::wait_task(RankLane who, std::vector<RankLane> for_whom) {
-  return placed({{"wait for what goes on beside", "b, c",
-                  [this, who, for_whom = std::move(for_whom)](const Instant&) {
-                    for (RankLane lane : for_whom) buffers_->on_devices->wait(who, lane);
-                  }}},
-                Stage::own_forces, 0)
-      .front();
+  Task task = wait_task(others_wait());
+  task.stage = Stage::begin;
+  return {task};
 }
 
 template <class S>
 void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const {
-  const ExecutionSpace& space = buffers_->on_devices->space(RankLane::outer);
+  const ExecutionSpace& space = buffers_->on_devices->space(RankLane::messages);
   pack(space, rows, buffers, share_);
   buffers_->on_devices->exchange(device_messages_of(buffers, share_));
   unpack(space, rows, buffers, share_);
@@ -182,8 +205,7 @@ void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const
 }
 
 Task RowExchange::send_task(bool beside) {
-  Task task{"forces on nodes of other ranks, sent", "b, c", [this, beside](const Instant&) {
-              if (buffers_->on_devices && !beside) buffers_->on_devices->begin();
+  Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
               with_rows([this](const auto& rows, const auto& buffers) {
                 if (buffers_->on_devices) return exchange_on_devices(rows, buffers);
                 pack(ExecutionSpace(), rows, buffers, share_);
@@ -195,13 +217,13 @@ Task RowExchange::send_task(bool beside) {
             }};
   task.stage = Stage::own_forces;
   task.recordable = between_devices();
-  return task;
+  task.rank_lane = RankLane::messages;
+  return between_devices() && !beside ? after(others_wait(), std::move(task)) : task;
 }
 
 Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
               if (buffers_->on_devices) {
-                buffers_->on_devices->finish();
                 if (!recording_) wait_for_rows(most_ahead);
                 return;
               }
@@ -216,7 +238,7 @@ Task RowExchange::receive_task() {
             }};
   task.stage = Stage::own_forces;
   task.recordable = between_devices();
-  return task;
+  return between_devices() ? after(inner_waits(), std::move(task)) : task;
 }
 
 std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {
@@ -238,9 +260,9 @@ void RowExchange::repeat(const DeviceMessages::Recorded& steps) {
 }
 
 void RowExchange::in_order(const std::function<void()>& launch) const {
-  buffers_->on_devices->begin();
+  pass(others_wait());
   launch();
-  buffers_->on_devices->finish();
+  pass(inner_waits());
 }
 
 }  // namespace railwave

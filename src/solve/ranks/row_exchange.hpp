@@ -35,7 +35,9 @@ class RowExchange {
  public:
   /// All ranks must make theirs together. Throws what wanted_row_way() throws, and std::runtime_error where NCCL is
   /// wanted and cannot join the ranks.
-  RowExchange(const NodalState& nodal, RankShare share, Transport& transport);
+  /// @param messages in place of NCCL's
+  RowExchange(const NodalState& nodal, RankShare share, Transport& transport,
+              std::unique_ptr<DeviceMessages> messages = nullptr);
   ~RowExchange();
 
   const RankShare& share() const { return share_; }
@@ -51,17 +53,18 @@ class RowExchange {
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
   void wait_for_rows(long ahead = 0) const;
 
-  /// In whose order a lane launches; null: in the default one, as the host waits for rows.
-  const ExecutionSpace* space(RankLane lane) const;
-  /// The first of a step: what is launched in other lanes than the inner one comes after the step before.
-  std::vector<Task> begin_tasks();
-  /// Between devices: what a lane launches from then on comes after what the others have launched.
-  Task wait_task(RankLane who, std::vector<RankLane> for_whom);
+  /// Between devices: the tasks launch in a lane's order. Else the host waits for rows, and they stay in the default
+  /// one.
+  std::vector<Task> in_lane(RankLane lane, std::vector<Task> tasks) const;
+  /// The first of a step: other lanes than the inner one wait for the step before.
+  std::vector<Task> begin_tasks() const;
+  /// Between devices.
+  Task wait_task(std::vector<LaneWait> waits) const;
   /// To come after the outer blocks' forces: the rows are on their way from then on.
   /// @param beside these are in lanes of their own
   Task send_task(bool beside);
-  /// Before anything that needs rows of others but in the outer lane. Between devices the inner lane waits for all
-  /// others.
+  /// Before anything that needs rows of others in another lane than that of messages. Between devices the inner lane
+  /// waits for all others.
   Task receive_task();
 
   /// Between devices: a rank's steps as a graph, see DeviceMessages::record().
@@ -78,9 +81,13 @@ class RowExchange {
   /// are, while a host is done with them. Where a host's memory stands for a device's, it does as for a device.
   bool starts_late() const { return on_device || way_ == RowWay::mpi; }
 
-  /// In the outer lane, all of it.
+  /// In the lane of messages, all of it.
   template <class S>
   void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
+
+  void pass(const std::vector<LaneWait>& waits) const;
+  /// The task, with the waits before it.
+  Task after(std::vector<LaneWait> waits, Task task) const;
 
   /// Calls act(rows of partial forces, their buffers).
   template <class Do>

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+namespace railwave {
+
+/// What a rank launches side by side between GPUs, each lane in an order of its own.
+enum class RankLane : int {
+  inner,     ///< the default order: blocks without late nodes or nodes of other ranks; nodes of this rank alone
+  outer,     ///< blocks with nodes of other ranks
+  late,      ///< blocks with late nodes, which ties, multipliers, prescribed motions or ends move
+  messages,  ///< rows to and from other ranks, then nodes of several ranks
+  loads,     ///< loads; then what moves late nodes
+  contact    ///< beams, contact
+};
+inline constexpr RankLane other_rank_lanes[] = {RankLane::outer, RankLane::late, RankLane::messages, RankLane::loads,
+                                                RankLane::contact};
+
+/// What a lane launches from then on comes after all that another has launched.
+struct LaneWait {
+  RankLane who, for_whom;
+};
+
+/// All others for the inner lane.
+inline std::vector<LaneWait> others_wait() {
+  std::vector<LaneWait> waits;
+  for (RankLane lane : other_rank_lanes) waits.push_back({lane, RankLane::inner});
+  return waits;
+}
+
+/// The inner lane for all others.
+inline std::vector<LaneWait> inner_waits() {
+  std::vector<LaneWait> waits;
+  for (RankLane lane : other_rank_lanes) waits.push_back({RankLane::inner, lane});
+  return waits;
+}
+
+}  // namespace railwave

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <map>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "solve/plan.hpp"
+#include "solve/ranks/row_exchange.hpp"
+#include "tests/solve/moved_blocks.hpp"
+#include "tests/solve/one_of_two.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+constexpr int steps_in_lanes = 40;
+
+/// Those of a GPU in name: all lanes launch in the default order, and the other rank sends zeros.
+class LanesInName : public DeviceMessages {
+ public:
+  const ExecutionSpace& space(RankLane /*lane*/) const override { return space_; }
+  void wait(const LaneWait& /*wait*/) override {}
+  void exchange(const std::vector<Message>& messages) override {
+    for (const Message& one : messages)
+      Kokkos::deep_copy(space_, Array<unsigned char*>(static_cast<unsigned char*>(one.received), one.received_bytes),
+                        static_cast<unsigned char>(0));
+  }
+  std::unique_ptr<Recorded> record(const std::function<void()>& /*launch*/) override {
+    throw std::logic_error("nothing is recorded here");
+  }
+
+ private:
+  ExecutionSpace space_;
+};
+
+/// Rank 1 has the blocks on whose nodes nothing but elements and constraints acts.
+BlockPartition elements_alone_to_another(const Model& model) {
+  std::set<int> bound;
+  const auto row = to_vector(model.nodes.external_row);
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (row[n] >= 0) bound.insert(n);
+  const auto shared = to_host(model.shared.nodes);
+  for (std::size_t i = model.first_late; i < shared.extent(0); ++i) bound.insert(shared(i).node & ~special_bit);
+  for (const ContactPair& pair : model.contacts) {
+    bound.insert(pair.slave_nodes.begin(), pair.slave_nodes.end());
+    bound.insert(pair.master_nodes.begin(), pair.master_nodes.end());
+  }
+  BlockPartition partition;
+  partition.ranks = 2;
+  for (const ElementGroup& group : model.elements) {
+    auto& owner = partition.owner.emplace_back();
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p) {
+      bool any = false;
+      for (int l = 0; l < count(p); ++l)
+        any = any || bound.count(node(p * group.blocks.node_stride + l) & ~advance_bit) > 0;
+      owner.push_back(any ? 0 : 1);
+    }
+  }
+  return partition;
+}
+
+/// Rank 0's part of a scene.
+struct Rank0 {
+  Model model;
+  OneOfTwo transport;
+  std::unique_ptr<RowExchange> exchange;
+
+  Rank0(const scene::Scene& scene, bool in_lanes) {
+    build_model(scene, model);
+    set_initial_motion(model, model.nodes, model.beams);
+    const BlockPartition partition = elements_alone_to_another(model);
+    exchange = std::make_unique<RowExchange>(model, take_share(model, partition, lay_out_ranks(model, partition), 0),
+                                             transport, in_lanes ? std::make_unique<LanesInName>() : nullptr);
+  }
+};
+
+/// A task of one of many steps, and what it comes after.
+struct Launch {
+  const Task* task;
+  Instant instant;
+  long step;
+  double velocity_lag;
+  std::set<int> after;
+};
+
+/// All tasks of the steps of a plan. @param without the lane for which nobody waits; null: as the plan has it
+std::vector<Launch> launches_of(const Plan& plan, const Model& model, const RankLane* without) {
+  std::vector<Launch> all;
+  std::map<RankLane, std::set<int>> last;
+  for (long s = 0; s < steps_in_lanes; ++s) {
+    const Instant instant{static_cast<double>(s) * model.step_size, model.step_size, s == 0 ? 0 : model.step_size};
+    for (const std::vector<Task>* tasks : {&plan.forces, &plan.motion})
+      for (const Task& task : *tasks) {
+        if (!task.due(s)) continue;
+        for (const LaneWait& wait : task.waits)
+          if (without == nullptr || wait.for_whom != *without)
+            last[wait.who].insert(last[wait.for_whom].begin(), last[wait.for_whom].end());
+        all.push_back({&task, instant, s, s == 0 ? 0 : 0.5 * model.step_size, last[task.rank_lane]});
+        last[task.rank_lane] = {static_cast<int>(all.size()) - 1};
+      }
+  }
+  return all;
+}
+
+/// Runs launches in any order that their waits allow. @param first says which of two lanes comes first where both may
+template <class First>
+End run_launches(Model& model, const std::vector<Launch>& launches, const First& first) {
+  std::vector<char> done(launches.size(), 0);
+  // Of each lane the next launch; lanes go in order.
+  std::map<RankLane, std::vector<int>> left;
+  for (std::size_t k = launches.size(); k-- > 0;) left[launches[k].task->rank_lane].push_back(static_cast<int>(k));
+  for (std::size_t count = 0; count < launches.size(); ++count) {
+    std::vector<RankLane> ready;
+    for (const auto& [lane, of_lane] : left) {
+      if (of_lane.empty()) continue;
+      const std::set<int>& after = launches[of_lane.back()].after;
+      if (std::all_of(after.begin(), after.end(), [&](int other) { return done[other] != 0; })) ready.push_back(lane);
+    }
+    REQUIRE(!ready.empty());
+    const RankLane lane = first(ready);
+    const int next = left[lane].back();
+    left[lane].pop_back();
+    done[next] = 1;
+    const Launch& launch = launches[next];
+    model.step = launch.step;
+    model.time = launch.instant.time;
+    model.velocity_lag = launch.velocity_lag;
+    launch.task->run(launch.instant);
+  }
+  return end_of(model);
+}
+
+End end_in_order(const scene::Scene& scene) {
+  Rank0 rank(scene, false);
+  REQUIRE(!rank.exchange->between_devices());
+  StepPlans plans(rank.model, rank.exchange.get());
+  for (long s = 0; s < steps_in_lanes; ++s) {
+    const Instant instant{static_cast<double>(s) * rank.model.step_size, rank.model.step_size,
+                          s == 0 ? 0 : rank.model.step_size};
+    rank.model.time = instant.time;
+    plans.compute_forces(instant, StepKind::advancing);
+    plans.advance(instant);
+  }
+  return end_of(rank.model);
+}
+
+/// Whether all orders that are tried end as the expected one.
+/// @param without see launches_of()
+bool all_alike(const scene::Scene& scene, const End& expected, const RankLane* without = nullptr) {
+  const auto alike = [&](const auto& first) {
+    Rank0 rank(scene, true);
+    REQUIRE(rank.exchange->between_devices());
+    const Plan plan = make_plan(rank.model, StepKind::advancing, rank.exchange.get());
+    const End end = run_launches(rank.model, launches_of(plan, rank.model, without), first);
+    return end.position == expected.position && end.velocity == expected.velocity;
+  };
+  std::vector<RankLane> lanes{RankLane::inner};
+  lanes.insert(lanes.end(), std::begin(other_rank_lanes), std::end(other_rank_lanes));
+  bool all = true;
+  for (RankLane favoured : lanes)
+    for (const bool hurries : {true, false}) {
+      // As early as it can, or as late.
+      all = all && alike([&](const std::vector<RankLane>& ready) {
+              const auto is_favoured = [&](RankLane lane) { return (lane == favoured) == hurries; };
+              const auto found = std::find_if(ready.begin(), ready.end(), is_favoured);
+              return found == ready.end() ? ready.front() : *found;
+            });
+    }
+  std::mt19937 random(1);
+  for (int k = 0; k < 3; ++k)
+    all = all && alike([&](const std::vector<RankLane>& ready) { return ready[random() % ready.size()]; });
+  return all;
+}
+
+scene::Scene tied_scene() {
+  TiedBlocks blocks;
+  blocks.fine = {8, 8, 32};
+  return tied_and_open(blocks);
+}
+
+scene::Scene in_contact(scene::ContactAlgorithm algorithm) {
+  scene::Scene scene = moved_blocks();
+  for (auto& mesh : scene.meshes) mesh.box.divisions = {32, 8, 16};
+  scene.parts[1].stiffness_damping = 0;
+  scene.contacts[0].algorithm = algorithm;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("lanes of a rank go on side by side, bit for bit, and wait for what they must") {
+  scene::Scene scene;
+  std::vector<RankLane> waited_for{RankLane::inner, RankLane::outer, RankLane::late, RankLane::messages};
+  SECTION("ties, non-reflecting ends, loads") {
+    scene = tied_scene();
+    waited_for.push_back(RankLane::loads);
+  }
+  SECTION("in mixed precision") {
+    scene = tied_scene();
+    scene.solver.precision = scene::Precision::mixed;
+    waited_for.clear();  // one after the other
+  }
+  SECTION("contact by springs, prescribed motions, connectors") {
+    scene = in_contact(scene::ContactAlgorithm::penalty);
+    waited_for.push_back(RankLane::contact);
+  }
+  SECTION("contact by multipliers") { scene = in_contact(scene::ContactAlgorithm::multiplier); }
+  const End expected = end_in_order(scene);
+  CHECK(all_alike(scene, expected));
+  for (RankLane lane : waited_for) {
+    INFO(static_cast<int>(lane));
+    CHECK_FALSE(all_alike(scene, expected, &lane));
+  }
+}

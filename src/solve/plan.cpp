@@ -82,20 +82,16 @@ bool outer_blocks_may_go_beside(const ElementModel& elements) {
   });
 }
 
-/// To come before the search of pairs with springs, or of those without: where it checks a window the host waits for
-/// the device, which would wait without end for the rows of a rank that does not answer.
-std::vector<Task> wait_before_search(const Model& model, bool springs, const RowExchange* exchange) {
-  const auto& contacts = model.contacts;
-  const auto searched = [springs](const ContactPair& pair) { return pair.has_springs() == springs; };
-  if (exchange == nullptr || std::none_of(contacts.begin(), contacts.end(), searched)) return {};
-  const NodalState& nodal = model;
-  Task task{"rows of other ranks, before a contact's window is checked", "d",
-            [&nodal, &contacts, searched, exchange](const Instant&) {
-              for (const ContactPair& pair : contacts)
-                if (searched(pair) && nodal.step >= pair.next_check) return exchange->wait_for_rows();
+/// To come before the search of contact: where it checks a window the host waits for the device, which would wait
+/// without end for the rows of a rank that does not answer.
+std::vector<Task> wait_before_search(const Model& model, const RowExchange& exchange) {
+  if (model.contacts.empty()) return {};
+  Task task{"rows of other ranks, before a contact's window is checked", "d", [&model, &exchange](const Instant&) {
+              const auto is_due = [&model](const ContactPair& pair) { return model.step >= pair.next_check; };
+              if (std::any_of(model.contacts.begin(), model.contacts.end(), is_due)) exchange.wait_for_rows();
             }};
   task.recordable = false;
-  return {task};
+  return placed({task}, Stage::own_forces, OwnForceLanes::contact);
 }
 
 /// Whether a rank's lanes go on side by side up to the end of a step: nodes of this rank alone wait for no message,
@@ -184,16 +180,13 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, std::vector<Task>
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
   append(tasks, frame_tasks(model, model, kind));
-  const auto of_contact = [](std::vector<Task> of) {
-    return placed(std::move(of), Stage::own_forces, OwnForceLanes::contact);
-  };
   std::vector<Task> loads = load_tasks(model, model, model.beams, kind, along);
-  std::vector<Task> springs = of_contact(contact_tasks(model.scene, model, model.contacts, kind, along));
-  locate = of_contact(std::move(locate));
+  std::vector<Task> springs =
+      placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, OwnForceLanes::contact);
+  locate = placed(std::move(locate), Stage::own_forces, OwnForceLanes::contact);
   if (exchange != nullptr) {
-    BesideElements beside{std::move(loads), of_contact(wait_before_search(model, true, exchange))};
+    BesideElements beside{std::move(loads), wait_before_search(model, *exchange)};
     append(beside.contact, std::move(springs));
-    append(beside.contact, of_contact(wait_before_search(model, false, exchange)));
     append(beside.contact, std::move(locate));
     append(tasks, shared_force_tasks(model, kind, *exchange, std::move(beside)));
     return tasks;

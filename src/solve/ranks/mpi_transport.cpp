@@ -217,11 +217,12 @@ class MpiTransport : public Transport {
     return silent;
   }
 
-  /// Another rank that this one waits for; -1: of rows that go from GPU to GPU it is not known whose are missing.
+  /// Another rank that this one waits for; -1: of rows that go from GPU to GPU it is not known whose are missing, but
+  /// with two ranks.
   int awaited_rank() {
     for (std::size_t k = 0; k < requests_.size(); ++k)
       if (!is_done(requests_[k])) return others_[k];
-    return -1;
+    return ranks_ == 2 ? 1 - rank_ : -1;
   }
 
   [[noreturn]] void give_up() {

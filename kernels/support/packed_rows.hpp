@@ -39,4 +39,19 @@ struct PackedRows {
   }
 };
 
+/// Two kernels in one launch.
+template <class First, class Second>
+struct OneAfterOther {
+  First first;
+  Second second;
+  int count_of_first;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    if (i < count_of_first)
+      first(i);
+    else
+      second(i - count_of_first);
+  }
+};
+
 }  // namespace railwave

@@ -103,14 +103,38 @@ bool in_lanes(const Model& model, StepKind kind, const RowExchange& exchange) {
          model.subcycling.levels == 1 && (!any_late || exchange.share().has_late_blocks());
 }
 
-/// Loads in their lane, beams in that of contact. What needs both waits for beams.
+/// Loads and beams in their lanes. What needs both waits for beams.
 std::vector<Task> loads_in_lanes(std::vector<Task> loads, const RowExchange& exchange) {
   std::vector<Task> tasks;
   for (Task& task : loads) {
-    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::contact}}));
-    const RankLane lane = task.lane == OwnForceLanes::beams ? RankLane::contact : RankLane::loads;
+    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::beams}}));
+    const RankLane lane = task.lane == OwnForceLanes::beams ? RankLane::beams : RankLane::loads;
     append(tasks, exchange.in_lane(lane, {std::move(task)}));
   }
+  return tasks;
+}
+
+/// What comes after own forces: ties and multipliers that need no loads in lanes of their own.
+std::vector<Task> passed_on_in_lanes(std::vector<Task> forces, const RowExchange& exchange) {
+  using Lane = RankLane;
+  std::vector<Task> tasks;
+  bool beside = false;
+  const auto wait = [&] {
+    if (beside) tasks.push_back(exchange.wait_task({{Lane::loads, Lane::late}, {Lane::loads, Lane::contact}}));
+    beside = false;
+  };
+  for (Task& task : forces) {
+    if (task.stage <= Stage::own_forces) {
+      tasks.push_back(std::move(task));
+      continue;
+    }
+    const bool unloaded = task.begins == Begins::beside_loads;
+    const RankLane lane = !unloaded ? Lane::loads : task.stage == Stage::passed_on ? Lane::late : Lane::contact;
+    if (!unloaded && task.stage > Stage::passed_on) wait();
+    beside = beside || unloaded;
+    append(tasks, exchange.in_lane(lane, {std::move(task)}));
+  }
+  wait();
   return tasks;
 }
 
@@ -134,26 +158,27 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
     return tasks;
   }
   // Loads and contact are small and long in line: blocks leave them room where these come second.
-  append(tasks, loads_in_lanes(std::move(beside.loads), exchange));
   append(tasks, exchange.in_lane(Lane::contact, std::move(beside.contact)));
+  if (exchange.pushes_others()) tasks.push_back(exchange.wait_task({{Lane::messages, Lane::contact}}));
+  append(tasks, loads_in_lanes(std::move(beside.loads), exchange));
   append(tasks, exchange.in_lane(Lane::late, std::move(late)));
   append(tasks, exchange.in_lane(Lane::outer, std::move(outer)));
   append(tasks, std::move(inner));
-  tasks.push_back(exchange.wait_task({{Lane::messages, Lane::outer}, {Lane::messages, Lane::late}}));
   tasks.push_back(exchange.send_task(true));
   if (!in_lanes(model, kind, exchange)) {
     tasks.push_back(exchange.receive_task());
     return tasks;
   }
-  // Before late nodes, nodes of this rank alone and nodes of several ranks.
+  // Before what moves nodes of this rank alone, and late ones. On nodes of several ranks only elements act, and contact
+  // that is waited for above.
   tasks.push_back(exchange.wait_task({{Lane::inner, Lane::outer},
                                       {Lane::inner, Lane::late},
                                       {Lane::inner, Lane::loads},
                                       {Lane::inner, Lane::contact},
-                                      {Lane::messages, Lane::loads},
-                                      {Lane::messages, Lane::contact},
                                       {Lane::loads, Lane::late},
-                                      {Lane::loads, Lane::contact}}));
+                                      {Lane::loads, Lane::contact},
+                                      {Lane::late, Lane::contact},
+                                      {Lane::contact, Lane::late}}));
   return tasks;
 }
 
@@ -214,9 +239,7 @@ Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
     plan.motion = motion_tasks(model, kind);
     return plan;
   }
-  if (in_lanes(model, kind, *exchange))
-    for (Task& task : plan.forces)
-      if (task.stage > Stage::own_forces) task = exchange->in_lane(RankLane::loads, {std::move(task)}).front();
+  if (in_lanes(model, kind, *exchange)) plan.forces = passed_on_in_lanes(std::move(plan.forces), *exchange);
   plan.motion = rank_motion_tasks(model, kind, *exchange, {motions_of_others(model, kind), tied_motion(model, kind)});
   return plan;
 }

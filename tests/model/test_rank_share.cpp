@@ -10,11 +10,10 @@ using namespace railwave::verify;
 
 namespace {
 
-/// In contact by multipliers, which the nodes of both surfaces wait for.
-Model touching_blocks() {
+Model touching_blocks(scene::ContactAlgorithm algorithm) {
   TwoBlocks blocks;
   blocks.lower_divisions = {16, 16, 12};
-  blocks.algorithm = scene::ContactAlgorithm::multiplier;
+  blocks.algorithm = algorithm;
   scene::Scene scene = blocks.scene(1e-4);
   hold(scene, "lower.z_min", {true, true, true});
   Model model;
@@ -57,6 +56,9 @@ BlockPartition without(const Model& model, const std::set<int>& nodes, bool take
   return partition;
 }
 
+/// By which the nodes of both surfaces are late.
+Model blocks_by_multipliers() { return touching_blocks(scene::ContactAlgorithm::multiplier); }
+
 /// The list that has a block: 0 late, 1 outer, 2 inner; -1: none.
 int list_of(const RankShare& share, std::size_t group, int block) {
   int found = -1, k = 0;
@@ -83,7 +85,7 @@ std::vector<int> shared_range(const Model& model, int begin, int end) {
 
 TEST_CASE("a rank's blocks and nodes are divided by what they wait for") {
   for (const int rank : {0, 1}) {
-    Model model = touching_blocks();
+    Model model = blocks_by_multipliers();
     const std::set<int> late = surface_nodes(model);
     const BlockPartition partition = without(model, late);
     const RankLayout layout = lay_out_ranks(model, partition);
@@ -132,9 +134,45 @@ TEST_CASE("a rank's blocks and nodes are divided by what they wait for") {
 }
 
 TEST_CASE("where a late node has blocks of another rank, too, none are computed first") {
-  Model model = touching_blocks();
+  Model model = blocks_by_multipliers();
   const BlockPartition partition = without(model, surface_nodes(model), true);
   const RankShare share = take_share(model, partition, lay_out_ranks(model, partition), 0);
   CHECK(!share.has_late_blocks());
   CHECK(model.first_late < static_cast<int>(model.shared.nodes.extent(0)));
+}
+
+TEST_CASE("rank 0 moves what its contact by springs pushes, whoever has the blocks") {
+  std::vector<int> pushed_by_0;
+  for (const int rank : {0, 1, 2}) {
+    Model model = touching_blocks(scene::ContactAlgorithm::penalty);
+    const std::set<int> master(model.contacts[0].master_nodes.begin(), model.contacts[0].master_nodes.end());
+    const std::set<int> slaves(model.contacts[0].slave_nodes.begin(), model.contacts[0].slave_nodes.end());
+    BlockPartition partition = without(model, master);  // rank 0 has the blocks of one surface
+    partition.ranks = 3;
+    for (std::size_t g = 0; g < model.elements.size(); ++g)
+      for (int p = 0; p < model.elements[g].blocks.count; ++p)
+        if (any_in(nodes_in(model.elements[g], p), slaves)) partition.owner[g][p] = 2;
+    const RankLayout layout = lay_out_ranks(model, partition);
+    CHECK(layout.touched[0].empty());
+    CHECK(layout.touched[1].empty());
+    std::set<int> rows;
+    const auto row = to_vector(model.nodes.external_row);
+    for (int n : slaves) {
+      CHECK(layout.ranks.has(n, 0));
+      CHECK(layout.ranks.has(n, 2));
+      rows.insert(row[n]);
+    }
+    CHECK(std::set<int>(layout.touched[2].begin(), layout.touched[2].end()) == rows);
+    CHECK(layout.touched[2].size() == rows.size());
+
+    const RankShare share = take_share(model, partition, layout, rank);
+    const std::vector<int> touched = to_vector(share.touched);
+    if (rank == 0) pushed_by_0 = touched;
+    CHECK(touched == (rank == 1 ? std::vector<int>{} : pushed_by_0));
+    for (const RankShare::Neighbour& one : share.neighbours)
+      CHECK(one.touched_count == (rank != 1 && one.rank == 2 - rank ? static_cast<int>(rows.size()) : 0));
+    const auto [begin, end] = model.between_ranks;
+    const std::vector<int> between = shared_range(model, begin, end);
+    for (int n : slaves) CHECK((std::count(between.begin(), between.end(), n) == 1) == (rank != 1));
+  }
 }

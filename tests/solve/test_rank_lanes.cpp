@@ -21,33 +21,35 @@ constexpr int steps_in_lanes = 40;
 /// Those of a GPU in name: all lanes launch in the default order, and the other rank sends zeros.
 class LanesInName : public DeviceMessages {
  public:
+  explicit LanesInName(SentBytes& sent) : sent_(sent) {}
   const ExecutionSpace& space(RankLane /*lane*/) const override { return space_; }
   void wait(const LaneWait& /*wait*/) override {}
   void exchange(const std::vector<Message>& messages) override {
-    for (const Message& one : messages)
+    using Bytes = Kokkos::View<const unsigned char*, ExecutionSpace::memory_space, Kokkos::MemoryUnmanaged>;
+    for (const Message& one : messages) {
+      const auto sent = Kokkos::create_mirror_view_and_copy(
+          Kokkos::HostSpace(), Bytes(static_cast<const unsigned char*>(one.sent), one.sent_bytes));
+      sent_.add(sent.data(), one.sent_bytes);
       Kokkos::deep_copy(space_, Array<unsigned char*>(static_cast<unsigned char*>(one.received), one.received_bytes),
                         static_cast<unsigned char>(0));
+    }
   }
   std::unique_ptr<Recorded> record(const std::function<void()>& /*launch*/) override {
     throw std::logic_error("nothing is recorded here");
   }
 
  private:
+  SentBytes& sent_;
   ExecutionSpace space_;
 };
 
-/// Rank 1 has the blocks on whose nodes nothing but elements and constraints acts.
+/// Rank 1 has the blocks on whose nodes nothing but elements, constraints and contact's springs acts.
 BlockPartition elements_alone_to_another(const Model& model) {
   std::set<int> bound;
-  const auto row = to_vector(model.nodes.external_row);
-  for (int n = 0; n < model.nodes.count; ++n)
-    if (row[n] >= 0) bound.insert(n);
+  for (const LoadedRow& loaded : to_vector(model.external.loaded)) bound.insert(loaded.node);
   const auto shared = to_host(model.shared.nodes);
   for (std::size_t i = model.first_late; i < shared.extent(0); ++i) bound.insert(shared(i).node & ~special_bit);
-  for (const ContactPair& pair : model.contacts) {
-    bound.insert(pair.slave_nodes.begin(), pair.slave_nodes.end());
-    bound.insert(pair.master_nodes.begin(), pair.master_nodes.end());
-  }
+  for (const TiedPlace& tied : model.ties.places) bound.insert(std::begin(tied.face), std::end(tied.face));
   BlockPartition partition;
   partition.ranks = 2;
   for (const ElementGroup& group : model.elements) {
@@ -73,8 +75,9 @@ struct Rank0 {
     build_model(scene, model);
     set_initial_motion(model, model.nodes, model.beams);
     const BlockPartition partition = elements_alone_to_another(model);
-    exchange = std::make_unique<RowExchange>(model, take_share(model, partition, lay_out_ranks(model, partition), 0),
-                                             transport, in_lanes ? std::make_unique<LanesInName>() : nullptr);
+    exchange =
+        std::make_unique<RowExchange>(model, take_share(model, partition, lay_out_ranks(model, partition), 0),
+                                      transport, in_lanes ? std::make_unique<LanesInName>(transport.sent) : nullptr);
   }
 };
 
@@ -134,7 +137,13 @@ End run_launches(Model& model, const std::vector<Launch>& launches, const First&
   return end_of(model);
 }
 
-End end_in_order(const scene::Scene& scene) {
+/// How rank 0's part of a run ends, and what it has sent.
+struct Outcome {
+  End end;
+  std::uint64_t sent;
+};
+
+Outcome outcome_in_order(const scene::Scene& scene) {
   Rank0 rank(scene, false);
   REQUIRE(!rank.exchange->between_devices());
   StepPlans plans(rank.model, rank.exchange.get());
@@ -145,18 +154,19 @@ End end_in_order(const scene::Scene& scene) {
     plans.compute_forces(instant, StepKind::advancing);
     plans.advance(instant);
   }
-  return end_of(rank.model);
+  return {end_of(rank.model), rank.transport.sent.hash()};
 }
 
-/// Whether all orders that are tried end as the expected one.
+/// Whether all orders that are tried end as the expected one, and send the same.
 /// @param without see launches_of()
-bool all_alike(const scene::Scene& scene, const End& expected, const RankLane* without = nullptr) {
+bool all_alike(const scene::Scene& scene, const Outcome& expected, const RankLane* without = nullptr) {
   const auto alike = [&](const auto& first) {
     Rank0 rank(scene, true);
     REQUIRE(rank.exchange->between_devices());
     const Plan plan = make_plan(rank.model, StepKind::advancing, rank.exchange.get());
     const End end = run_launches(rank.model, launches_of(plan, rank.model, without), first);
-    return end.position == expected.position && end.velocity == expected.velocity;
+    return end.position == expected.end.position && end.velocity == expected.end.velocity &&
+           rank.transport.sent.hash() == expected.sent;
   };
   std::vector<RankLane> lanes{RankLane::inner};
   lanes.insert(lanes.end(), std::begin(other_rank_lanes), std::end(other_rank_lanes));
@@ -209,7 +219,7 @@ TEST_CASE("lanes of a rank go on side by side, bit for bit, and wait for what th
     waited_for.push_back(RankLane::contact);
   }
   SECTION("contact by multipliers") { scene = in_contact(scene::ContactAlgorithm::multiplier); }
-  const End expected = end_in_order(scene);
+  const Outcome expected = outcome_in_order(scene);
   CHECK(all_alike(scene, expected));
   for (RankLane lane : waited_for) {
     INFO(static_cast<int>(lane));

@@ -20,21 +20,20 @@
 namespace railwave {
 namespace {
 
-/// Search and law of a slave node cost about as much as so many elements.
-constexpr double elements_of_slave_node = 2;
+/// Contact costs about as much as so many elements for each slave node: a few of them are near the other surface.
+constexpr double elements_of_slave_node = 0.5;
 /// Weights of METIS are whole numbers: of an element that is evaluated at every step.
 constexpr int weight_of_element = 1 << (most_levels - 1);
 
-/// Nodes on which something other than elements acts, or whose place it must know: by node.
+/// Nodes on which something other than elements and contact's springs acts, or whose place it must know: by node.
 std::vector<char> bound_nodes(const Model& model) {
   std::vector<char> bound(model.nodes.count, 0);
   const auto mark = [&](const auto& nodes) {
     for (int n : nodes) bound[n] = 1;
   };
-  const auto rows = to_vector(model.nodes.external_row);
-  for (int n = 0; n < model.nodes.count; ++n)
-    if (rows[n] >= 0) bound[n] = 1;
+  for (const LoadedRow& loaded : to_vector(model.external.loaded)) bound[loaded.node] = 1;
   for (const ContactPair& pair : model.contacts) {
+    if (pair.has_springs()) continue;
     mark(pair.slave_nodes);
     mark(pair.master_nodes);
   }
@@ -55,6 +54,7 @@ struct BlockGraph {
   std::vector<double> weight;  ///< element evaluations a step
   std::vector<long> elements;
   std::vector<char> bound;                              ///< to rank 0
+  std::vector<int> in_contact;                          ///< nodes that rank 0 moves, too, for contact's springs
   std::vector<std::vector<std::pair<int, int>>> edges;  ///< other block, nodes in common
 };
 
@@ -94,7 +94,10 @@ BlockGraph graph_of(const Model& model) {
   }
   const std::size_t blocks = graph.elements.size();
   graph.bound.assign(blocks, 0);
+  graph.in_contact.assign(blocks, 0);
   graph.edges.resize(blocks);
+  std::vector<char> in_contact(model.nodes.count, 0);
+  for (int n : nodes_of_contact_springs(model)) in_contact[n] = 1;
   const std::vector<char> bound = bound_nodes(model);
   const BlocksOfNodes around(model);
   std::vector<int> common(blocks, 0), others;  // with the present block
@@ -111,6 +114,7 @@ BlockGraph graph_of(const Model& model) {
     if (b != present) finish();
     present = b;
     if (bound[n] != 0) graph.bound[b] = 1;
+    graph.in_contact[b] += in_contact[n];
     for (int k = around.first[n]; k < around.first[n + 1]; ++k) {
       const int other = around.block[k];
       if (other != b && common[other]++ == 0) others.push_back(other);
@@ -128,32 +132,58 @@ double work_of_contact(const Model& model) {
 }
 
 #ifdef RAILWAVE_MPI
-/// Parts of the blocks that rank 0 need not have. @param shares of their work, by part
-std::vector<idx_t> parts_of_free_blocks(const BlockGraph& graph, const std::vector<int>& free_blocks,
-                                        std::vector<real_t>& shares) {
-  std::vector<idx_t> vertex(graph.weight.size(), -1);
-  for (std::size_t v = 0; v < free_blocks.size(); ++v) vertex[free_blocks[v]] = static_cast<idx_t>(v);
+/// A graph as METIS takes it: the neighbours of vertex v from first[v] on.
+struct MetisGraph {
   std::vector<idx_t> first{0}, other, common, weight;
-  for (int b : free_blocks) {
-    weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(graph.weight[b] * weight_of_element)));
-    for (const auto& [to, nodes] : graph.edges[b]) {
-      if (vertex[to] < 0) continue;
-      other.push_back(vertex[to]);
+
+  void add_vertex(double work, const std::vector<std::pair<idx_t, int>>& neighbours) {
+    weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(work * weight_of_element)));
+    for (const auto& [to, nodes] : neighbours) {
+      other.push_back(to);
       common.push_back(nodes);
     }
     first.push_back(static_cast<idx_t>(other.size()));
   }
-  idx_t count = static_cast<idx_t>(free_blocks.size()), constraints = 1, parts = static_cast<idx_t>(shares.size()),
-        cut = 0;
-  std::vector<idx_t> part(free_blocks.size(), 0);
+};
+
+/// A vertex for each of the blocks that rank 0 need not have. @param whole one more, the last, for all that it has, if
+/// that is work; nodes of contact's springs count as in common with it
+MetisGraph metis_graph(const BlockGraph& graph, const std::vector<int>& free_blocks, double whole) {
+  const auto rank_0 = static_cast<idx_t>(free_blocks.size());
+  std::vector<idx_t> vertex(graph.weight.size(), rank_0);
+  for (std::size_t v = 0; v < free_blocks.size(); ++v) vertex[free_blocks[v]] = static_cast<idx_t>(v);
+  MetisGraph result;
+  std::vector<std::pair<idx_t, int>> of_rank_0;
+  for (int b : free_blocks) {
+    int with_rank_0 = graph.in_contact[b];
+    std::vector<std::pair<idx_t, int>> neighbours;
+    for (const auto& [to, nodes] : graph.edges[b])
+      if (vertex[to] == rank_0)
+        with_rank_0 += nodes;
+      else
+        neighbours.emplace_back(vertex[to], nodes);
+    if (whole > 0 && with_rank_0 > 0) {
+      of_rank_0.emplace_back(vertex[b], with_rank_0);
+      neighbours.emplace_back(rank_0, with_rank_0);
+    }
+    result.add_vertex(graph.weight[b], neighbours);
+  }
+  if (whole > 0) result.add_vertex(whole, of_rank_0);
+  return result;
+}
+
+/// Parts of alike weight, by vertex.
+std::vector<idx_t> parts_of(MetisGraph graph, idx_t parts) {
+  idx_t count = static_cast<idx_t>(graph.weight.size()), constraints = 1, cut = 0;
+  std::vector<idx_t> part(graph.weight.size(), 0);
   if (parts == 1) return part;
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
   constexpr idx_t most_by_halving = 8;  // what METIS's manual advises
   const auto divide = parts <= most_by_halving ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  if (divide(&count, &constraints, first.data(), other.data(), weight.data(), nullptr, common.data(), &parts,
-             shares.data(), nullptr, options, &cut, part.data()) != METIS_OK)
+  if (divide(&count, &constraints, graph.first.data(), graph.other.data(), graph.weight.data(), nullptr,
+             graph.common.data(), &parts, nullptr, nullptr, options, &cut, part.data()) != METIS_OK)
     throw std::runtime_error(fmt::format("METIS could not deal {} blocks out to {} ranks", count, parts));
   return part;
 }
@@ -178,13 +208,16 @@ std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks)
 #ifdef RAILWAVE_MPI
   // Below this share of a rank's work a part of its own for rank 0 is not worth another border.
   constexpr double least_share = 0.05;
-  const double mean = all / ranks, left = mean - bound, free_work = all - bound;
-  const bool takes_part = left > least_share * mean;
-  const int parts = takes_part ? ranks : ranks - 1, first_part = takes_part ? 0 : 1;
-  std::vector<real_t> shares(parts, static_cast<real_t>((takes_part ? mean : free_work / parts) / free_work));
-  if (takes_part) shares[0] = static_cast<real_t>(left / free_work);
-  const std::vector<idx_t> part = parts_of_free_blocks(graph, free_blocks, shares);
-  for (std::size_t v = 0; v < free_blocks.size(); ++v) rank[free_blocks[v]] = first_part + static_cast<int>(part[v]);
+  const double mean = all / ranks;
+  const bool takes_part = mean - bound > least_share * mean;
+  const std::vector<idx_t> part =
+      parts_of(metis_graph(graph, free_blocks, takes_part ? bound : 0), takes_part ? ranks : ranks - 1);
+  const idx_t of_rank_0 = takes_part && bound > 0 ? part.back() : 0;  // the part changes places with the first
+  for (std::size_t v = 0; v < free_blocks.size(); ++v)
+    if (!takes_part)
+      rank[free_blocks[v]] = 1 + static_cast<int>(part[v]);
+    else
+      rank[free_blocks[v]] = static_cast<int>(part[v] == of_rank_0 ? 0 : part[v] == 0 ? of_rank_0 : part[v]);
 #endif
   return rank;
 }
@@ -262,6 +295,18 @@ void deal_out_blocks(Model& model, Transport& transport) {
   }
 }
 
+std::vector<int> nodes_of_contact_springs(const Model& model) {
+  std::vector<int> nodes;
+  for (const ContactPair& pair : model.contacts) {
+    if (!pair.has_springs()) continue;
+    for (const auto* surface : {&pair.slave_nodes, &pair.master_nodes})
+      nodes.insert(nodes.end(), surface->begin(), surface->end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 BlockPartition partition_of(const Model& model, int ranks) {
   BlockPartition partition;
   partition.ranks = ranks;
@@ -274,18 +319,21 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
   const RankLayout layout = lay_out_ranks(model, partition);
   const double row = model.in_single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
   for (int r = 0; r < partition.ranks; ++r) {
-    long rows = 0;
+    long rows = 0, of_contact = 0;
     int neighbours = 0;
     for (int other = 0; other < partition.ranks; ++other) {
       rows += static_cast<long>(layout.sent[r][other].size());
-      neighbours += layout.sent[r][other].empty() ? 0 : 1;
+      if (r == 0) of_contact += static_cast<long>(layout.touched[other].size());
+      neighbours += layout.sent[r][other].empty() && (r > 0 || layout.touched[other].empty()) ? 0 : 1;
     }
+    const double bytes = row * static_cast<double>(rows) + sizeof(FixedForce) * static_cast<double>(of_contact);
     lines.push_back(fmt::format("rank {}: {} elements, {} rows of forces ({:.4g} kB) a step to {} other{}", r,
-                                partition.elements[r], rows, 1e-3 * row * static_cast<double>(rows), neighbours,
+                                partition.elements[r], rows + of_contact, 1e-3 * bytes, neighbours,
                                 neighbours == 1 ? "" : "s"));
   }
   lines.push_back(fmt::format(
-      "rank 0 has all {} elements beside contact, ties, loads and ends; the largest share of work is {:.2f} times the "
+      "rank 0 has all {} elements beside ties, loads, ends and contact by multipliers; the largest share of work is "
+      "{:.2f} times the "
       "mean, so {} ranks are at most {:.2f} times as fast as one",
       partition.bound_elements, partition.imbalance(), partition.ranks, partition.ranks / partition.imbalance()));
   BlockPartition alone;

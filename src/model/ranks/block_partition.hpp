@@ -10,9 +10,10 @@ namespace railwave {
 /// Which rank of a run over several processes computes each block of elements. Blocks are the same whatever the number
 /// of ranks, and so are the rows of partial forces that they leave, which is why results do not depend on it.
 ///
-/// Rank 0 has every block with a node on which anything but elements acts: contact, ties, connectors, torques, beams,
-/// loads with rows of their own, prescribed motions, non-reflecting ends. The others are dealt out by METIS so that
-/// ranks have alike work and few nodes in common.
+/// Rank 0 has every block with a node on which anything but elements and contact's springs acts: contact by
+/// multipliers, ties, connectors, torques, beams, loads with rows of their own, prescribed motions, non-reflecting
+/// ends. The others are dealt out by METIS so that ranks have alike work and few nodes in common. Springs are rank 0's,
+/// too: it moves the nodes of both surfaces with the ranks whose blocks have them, and sends these the forces.
 struct BlockPartition {
   int ranks = 1;
   std::vector<std::vector<int>> owner;  ///< by group and block
@@ -36,6 +37,9 @@ void deal_out_blocks(Model& model, Transport& transport);
 
 /// The partition that deal_out_blocks() has left in a model: owners alone.
 BlockPartition partition_of(const Model& model, int ranks);
+
+/// Nodes of the surfaces that meet by springs, ascending.
+std::vector<int> nodes_of_contact_springs(const Model& model);
 
 /// Whether rank 0 needs all arrays before it deals a scene out: to settle it, to set it in motion, to find contact, the
 /// frames of nodes in single precision, and to search the frequencies of more than its elements. On a GPU memory is

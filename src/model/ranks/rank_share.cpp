@@ -115,6 +115,16 @@ RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
   layout.ranks = RanksOfNodes(model.nodes.count);
   layout.sent.assign(partition.ranks, std::vector<std::vector<int>>(partition.ranks));
   each_node_of_blocks(model, partition, [&](int node, int rank, int, int) { layout.ranks.add(node, rank); });
+  const std::vector<int> in_contact = nodes_of_contact_springs(model);
+  for (int n : in_contact)
+    if (layout.ranks.any(n)) layout.ranks.add(n, 0);
+  layout.touched.resize(partition.ranks);
+  const auto external_row = to_host(model.nodes.external_row);
+  for (int n : in_contact) {
+    if (!layout.ranks.several(n)) continue;
+    for (int rank : layout.ranks.of(n))
+      if (rank > 0) layout.touched[rank].push_back(external_row(n));
+  }
   each_node_of_blocks(model, partition, [&](int node, int rank, int row, int damping_row) {
     if (!layout.ranks.several(node)) return;
     for (int other : layout.ranks.of(node)) {
@@ -237,17 +247,21 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
     share.outer.push_back(to_device("outer blocks", of_outer));
     share.inner.push_back(to_device("inner blocks", of_inner));
   }
-  std::vector<int> sent, received;
+  std::vector<int> sent, received, touched;
   for (int other = 0; other < partition.ranks; ++other) {
     const auto &to = layout.sent[rank][other], &from = layout.sent[other][rank];
     if (to.empty() && from.empty()) continue;
-    share.neighbours.push_back({other, static_cast<int>(sent.size()), static_cast<int>(to.size()),
-                                static_cast<int>(received.size()), static_cast<int>(from.size())});
+    const std::vector<int> none, &pushed = rank == 0 ? layout.touched[other] : other == 0 ? layout.touched[rank] : none;
+    const auto place = [](const std::vector<int>& in) { return static_cast<int>(in.size()); };
+    share.neighbours.push_back(
+        {other, place(sent), place(to), place(received), place(from), place(touched), place(pushed)});
     sent.insert(sent.end(), to.begin(), to.end());
     received.insert(received.end(), from.begin(), from.end());
+    touched.insert(touched.end(), pushed.begin(), pushed.end());
   }
   share.sent = to_device("rows sent", sent);
   share.received = to_device("rows received", received);
+  share.touched = to_device("rows of contact forces", touched);
   keep_shared_nodes(model, layout, rank);
   const ShareItems items = items_of(model, partition, layout, rank);
   model.own_nodes = to_device("own nodes", own_items(model, items).nodes);

@@ -9,13 +9,15 @@
 
 namespace railwave {
 
-/// The ranks whose blocks have a node. Most nodes are one rank's.
+/// The ranks that move a node: those whose blocks have it, and rank 0 where its contact needs it. Most nodes are one
+/// rank's.
 class RanksOfNodes {
  public:
   explicit RanksOfNodes(int nodes) : only_(nodes, nobody) {}
 
   void add(int node, int rank);
   bool has(int node, int rank) const;
+  bool any(int node) const { return only_[node] != nobody; }
   bool several(int node) const { return only_[node] == several_ranks; }
   /// Ascending. @param node has several
   const std::vector<int>& of(int node) const { return several_.at(node); }
@@ -26,9 +28,11 @@ class RanksOfNodes {
   std::unordered_map<int, std::vector<int>> several_;
 };
 
-/// What ranks have in common, on the host: rows of partial forces, model numbers.
+/// What ranks have in common, on the host: model numbers.
 struct RankLayout {
-  std::vector<std::vector<std::vector<int>>> sent;  ///< by rank and other rank: rows that the other needs
+  std::vector<std::vector<std::vector<int>>> sent;  ///< by rank and other rank: rows of partial forces that it needs
+  std::vector<std::vector<int>> touched;            ///< by rank: rows of external forces by which rank 0's contact
+                                                    ///< pushes nodes of that rank's blocks
   RanksOfNodes ranks{0};
 };
 
@@ -74,6 +78,7 @@ struct RankShare {
     int rank;
     int first_sent, sent_count;          ///< in `sent`
     int first_received, received_count;  ///< in `received`
+    int first_touched, touched_count;    ///< in `touched`
   };
 
   int rank = 0, ranks = 1;
@@ -84,6 +89,7 @@ struct RankShare {
   std::vector<Array<int*>> inner;  ///< by group: the rest
   std::vector<Neighbour> neighbours;
   Array<int*> sent, received;  ///< rows of the partial forces, neighbour by neighbour
+  Array<int*> touched;         ///< rows of the contact forces that rank 0 sends, neighbour by neighbour
 
   bool has_late_blocks() const {
     return std::any_of(late.begin(), late.end(), [](const Array<int*>& blocks) { return blocks.extent(0) > 0; });

@@ -127,7 +127,8 @@ class NcclMessages : public DeviceMessages {
                 ExecutionSpace(late_.get()),
                 ExecutionSpace(messages_.get()),
                 ExecutionSpace(loads_.get()),
-                ExecutionSpace(contact_.get())} {
+                ExecutionSpace(contact_.get()),
+                ExecutionSpace(beams_.get())} {
     // Rows go from one rank to one other. Multicast would be set up for nothing.
     setenv("NCCL_NVLS_ENABLE", "0", 0);
     setenv("NCCL_MAX_P2P_NCHANNELS", std::to_string(channels).c_str(), 0);
@@ -169,7 +170,7 @@ class NcclMessages : public DeviceMessages {
  private:
   // What has to begin while others fill the device comes first: it is small, and long in line. Messages waited for the
   // last of all teams of lanes before them.
-  UrgentStream messages_{0}, loads_{1}, contact_{1}, late_{2}, outer_{3};
+  UrgentStream messages_{0}, loads_{1}, contact_{1}, beams_{1}, late_{2}, outer_{3};
   static constexpr int lanes = 1 + static_cast<int>(std::size(other_rank_lanes));
   const ExecutionSpace spaces_[lanes];  ///< in the order of RankLane
   Mark marks_[lanes];

@@ -8,13 +8,15 @@ namespace railwave {
 enum class RankLane : int {
   inner,     ///< the default order: blocks without late nodes or nodes of other ranks; nodes of this rank alone
   outer,     ///< blocks with nodes of other ranks
-  late,      ///< blocks with late nodes, which ties, multipliers, prescribed motions or ends move
+  late,      ///< blocks with late nodes, which ties, multipliers, prescribed motions or ends move; then ties, where
+             ///< they need no loads
   messages,  ///< rows to and from other ranks, then nodes of several ranks
-  loads,     ///< loads; then what moves late nodes
-  contact    ///< beams, contact
+  loads,     ///< loads; then ends, and what moves late nodes
+  contact,   ///< springs; multipliers, where they need no loads
+  beams
 };
-inline constexpr RankLane other_rank_lanes[] = {RankLane::outer, RankLane::late, RankLane::messages, RankLane::loads,
-                                                RankLane::contact};
+inline constexpr RankLane other_rank_lanes[] = {RankLane::outer, RankLane::late,    RankLane::messages,
+                                                RankLane::loads, RankLane::contact, RankLane::beams};
 
 /// What a lane launches from then on comes after all that another has launched.
 struct LaneWait {

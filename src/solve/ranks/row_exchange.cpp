@@ -13,23 +13,23 @@
 namespace railwave {
 
 /// Rows on the device, and on the host where messages are to have them there.
-template <class S>
+template <class Row>
 struct RowBuffer {
-  Array<PartialForce<S>*> device;
-  PinnedArray<PartialForce<S>*> host;
+  Array<Row*> device;
+  PinnedArray<Row*> host;
   bool copied;  ///< between the two
 
   RowBuffer(std::size_t rows, RowWay way)
-      : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)), copied(on_device && way == RowWay::host) {
-    if (copied) host = PinnedArray<PartialForce<S>*>("rows of other ranks, on the host", rows);
+      : device(unset_array<Row*>("rows of other ranks", rows)), copied(on_device && way == RowWay::host) {
+    if (copied) host = PinnedArray<Row*>("rows of other ranks, on the host", rows);
   }
 
-  PartialForce<S>* of_messages() const { return copied ? host.data() : device.data(); }
+  Row* of_messages() const { return copied ? host.data() : device.data(); }
 };
 
 template <class S>
 struct PrecisionBuffers {
-  RowBuffer<S> sent, received;
+  RowBuffer<PartialForce<S>> sent, received;
 
   PrecisionBuffers(const RankShare& share, RowWay way, bool used)
       : sent(used ? share.sent.extent(0) : 0, way), received(used ? share.received.extent(0) : 0, way) {}
@@ -42,57 +42,99 @@ constexpr long most_ahead = 2;
 struct RowExchange::Buffers {
   PrecisionBuffers<double> in_double;
   PrecisionBuffers<float> in_single;
+  RowBuffer<std::uint64_t> touched;  ///< contact forces from rank 0
   Milestone packed, unpacked;
   ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
   std::unique_ptr<DeviceMessages> on_devices;          ///< null: the host has MPI exchange rows
 
   Buffers(const RankShare& share, RowWay way, bool single)
-      : in_double(share, way, !single), in_single(share, way, single) {}
+      : in_double(share, way, !single), in_single(share, way, single), touched(3 * share.touched.extent(0), way) {}
 };
 
 namespace {
 
+/// What a rank sends and receives in a step: rows of partial forces, and the contact forces of rank 0.
 template <class S>
-void pack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
-          const RankShare& share) {
-  const int count = static_cast<int>(share.sent.extent(0));
-  if (count > 0)
-    Kokkos::parallel_for("pack_rows", Range(space, 0, count),
-                         PackedValues<PartialForce<S>, true>{rows, share.sent, 1, buffers.sent.device});
+struct ExchangedRows {
+  Array<PartialForce<S>*> partial;
+  Array<std::uint64_t* [3]> contact;
+  const RankShare& share;
+  const PrecisionBuffers<S>& buffers;
+  const RowBuffer<std::uint64_t>& touched;
+
+  bool pushes() const { return share.rank == 0; }
+  bool is_pushed() const { return share.rank > 0; }
+};
+
+/// Both lists in one launch. @tparam There true: into the buffers; false: from them
+template <bool There, class S>
+void copy_rows(const ExecutionSpace& space, const ExchangedRows<S>& rows) {
+  const RankShare& share = rows.share;
+  const Array<int*>& places = There ? share.sent : share.received;
+  const auto& buffer = There ? rows.buffers.sent : rows.buffers.received;
+  const int partial = static_cast<int>(places.extent(0));
+  const int contact = There == rows.pushes() ? static_cast<int>(share.touched.extent(0)) : 0;
+  using Partial = PackedValues<PartialForce<S>, There>;
+  using Contact = PackedRows<std::uint64_t, 3, There>;
+  if (partial + contact > 0)
+    Kokkos::parallel_for(
+        There ? "pack_rows" : "unpack_rows", Range(space, 0, partial + contact),
+        OneAfterOther<Partial, Contact>{
+            {rows.partial, places, 1, buffer.device}, {rows.contact, share.touched, rows.touched.device}, partial});
 }
 
 template <class S>
-void unpack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
-            const RankShare& share) {
-  const int count = static_cast<int>(share.received.extent(0));
-  if (count > 0)
-    Kokkos::parallel_for("unpack_rows", Range(space, 0, count),
-                         PackedValues<PartialForce<S>, false>{rows, share.received, 1, buffers.received.device});
+void pack(const ExecutionSpace& space, const ExchangedRows<S>& rows) {
+  copy_rows<true>(space, rows);
+}
+
+template <class S>
+void unpack(const ExecutionSpace& space, const ExchangedRows<S>& rows) {
+  copy_rows<false>(space, rows);
+}
+
+/// Calls act(neighbour, first row, count of rows, buffer) for what is sent or received, in the order of the messages.
+template <bool Sent, class S, class Do>
+void each_message(const ExchangedRows<S>& rows, const Do& act) {
+  for (const RankShare::Neighbour& one : rows.share.neighbours) {
+    if constexpr (Sent)
+      act(one.rank, one.first_sent, one.sent_count, rows.buffers.sent);
+    else
+      act(one.rank, one.first_received, one.received_count, rows.buffers.received);
+    if (one.touched_count > 0 && (Sent ? rows.pushes() : rows.is_pushed()))
+      act(one.rank, 3 * one.first_touched, 3 * one.touched_count, rows.touched);
+  }
 }
 
 /// What has been packed comes after the last step's unpacking in the device's order, so that both buffers are free.
 template <class S>
-void start_messages(const PrecisionBuffers<S>& buffers, const RankShare& share, const ExecutionSpace& copies,
-                    Transport& transport) {
-  const RowBuffer<S>&sent = buffers.sent, &received = buffers.received;
-  for (const RankShare::Neighbour& one : share.neighbours)
-    transport.start_receive(one.rank, received.of_messages() + one.first_received,
-                            sizeof(PartialForce<S>) * one.received_count);
-  if (sent.copied) {
-    Kokkos::deep_copy(copies, sent.host, sent.device);
+void start_messages(const ExchangedRows<S>& rows, const ExecutionSpace& copies, Transport& transport) {
+  each_message<false>(rows, [&](int from, int first, int count, const auto& buffer) {
+    auto* const row = buffer.of_messages() + first;
+    transport.start_receive(from, row, sizeof(*row) * count);
+  });
+  if (rows.buffers.sent.copied) {
+    Kokkos::deep_copy(copies, rows.buffers.sent.host, rows.buffers.sent.device);
+    if (rows.pushes()) Kokkos::deep_copy(copies, rows.touched.host, rows.touched.device);
     copies.fence();
   }
-  for (const RankShare::Neighbour& one : share.neighbours)
-    transport.start_send(one.rank, sent.of_messages() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count);
+  each_message<true>(rows, [&](int to, int first, int count, const auto& buffer) {
+    const auto* const row = buffer.of_messages() + first;
+    transport.start_send(to, row, sizeof(*row) * count);
+  });
 }
 
 template <class S>
-std::vector<DeviceMessages::Message> device_messages_of(const PrecisionBuffers<S>& buffers, const RankShare& share) {
+std::vector<DeviceMessages::Message> device_messages_of(const ExchangedRows<S>& rows) {
   std::vector<DeviceMessages::Message> messages;
-  for (const RankShare::Neighbour& one : share.neighbours)
-    messages.push_back({one.rank, buffers.sent.device.data() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count,
-                        buffers.received.device.data() + one.first_received,
-                        sizeof(PartialForce<S>) * one.received_count});
+  each_message<true>(rows, [&](int to, int first, int count, const auto& buffer) {
+    const auto* const row = buffer.device.data() + first;
+    messages.push_back({to, row, sizeof(*row) * count, nullptr, 0});
+  });
+  each_message<false>(rows, [&](int from, int first, int count, const auto& buffer) {
+    auto* const row = buffer.device.data() + first;
+    messages.push_back({from, nullptr, 0, row, sizeof(*row) * count});
+  });
   return messages;
 }
 
@@ -100,16 +142,19 @@ ExchangeLoad load_of(const RankShare& share, bool single) {
   long inner_blocks = 0;
   for (const Array<int*>& of_group : share.inner) inner_blocks += static_cast<long>(of_group.extent(0));
   const std::size_t row = single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
-  return {row * std::max(share.sent.extent(0), share.received.extent(0)), inner_blocks * elements_of_block};
+  const std::size_t contact = sizeof(FixedForce) * share.touched.extent(0);
+  const std::size_t sent = row * share.sent.extent(0) + (share.rank == 0 ? contact : 0);
+  const std::size_t received = row * share.received.extent(0) + (share.rank > 0 ? contact : 0);
+  return {std::max(sent, received), inner_blocks * elements_of_block};
 }
 
 template <class S>
-void finish_messages(const PrecisionBuffers<S>& buffers, const ExecutionSpace& copies, Transport& transport) {
+void finish_messages(const ExchangedRows<S>& rows, const ExecutionSpace& copies, Transport& transport) {
   transport.finish();
-  if (buffers.received.copied) {
-    Kokkos::deep_copy(copies, buffers.received.device, buffers.received.host);
-    copies.fence();
-  }
+  if (!rows.buffers.received.copied) return;
+  Kokkos::deep_copy(copies, rows.buffers.received.device, rows.buffers.received.host);
+  if (rows.is_pushed()) Kokkos::deep_copy(copies, rows.touched.device, rows.touched.host);
+  copies.fence();
 }
 
 /// Null: by MPI.
@@ -149,10 +194,11 @@ void RowExchange::wait_for_rows(long ahead) const {
 
 template <class Do>
 void RowExchange::with_rows(const Do& act) const {
+  const Array<std::uint64_t* [3]>& contact = nodal_.external.sum.contact;
   if (nodal_.partial.single_precision)
-    act(nodal_.partial.in_single, buffers_->in_single);
+    act(ExchangedRows<float>{nodal_.partial.in_single, contact, share_, buffers_->in_single, buffers_->touched});
   else
-    act(nodal_.partial.in_double, buffers_->in_double);
+    act(ExchangedRows<double>{nodal_.partial.in_double, contact, share_, buffers_->in_double, buffers_->touched});
 }
 
 std::vector<Task> RowExchange::in_lane(RankLane lane, std::vector<Task> tasks) const {
@@ -195,30 +241,32 @@ std::vector<Task> RowExchange::begin_tasks() const {
   return {task};
 }
 
-template <class S>
-void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const {
+template <class Rows>
+void RowExchange::exchange_on_devices(const Rows& rows) const {
   const ExecutionSpace& space = buffers_->on_devices->space(RankLane::messages);
-  pack(space, rows, buffers, share_);
-  buffers_->on_devices->exchange(device_messages_of(buffers, share_));
-  unpack(space, rows, buffers, share_);
+  pack(space, rows);
+  buffers_->on_devices->exchange(device_messages_of(rows));
+  unpack(space, rows);
   if (!recording_) buffers_->unpacked.put(space);
 }
 
 Task RowExchange::send_task(bool beside) {
   Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
-              with_rows([this](const auto& rows, const auto& buffers) {
-                if (buffers_->on_devices) return exchange_on_devices(rows, buffers);
-                pack(ExecutionSpace(), rows, buffers, share_);
+              with_rows([this](const auto& rows) {
+                if (buffers_->on_devices) return exchange_on_devices(rows);
+                pack(ExecutionSpace(), rows);
                 if (starts_late())
                   buffers_->packed.put(ExecutionSpace());
                 else
-                  start_messages(buffers, share_, buffers_->copies, transport_);
+                  start_messages(rows, buffers_->copies, transport_);
               });
             }};
   task.stage = Stage::own_forces;
   task.recordable = between_devices();
   task.rank_lane = RankLane::messages;
-  return between_devices() && !beside ? after(others_wait(), std::move(task)) : task;
+  if (!between_devices()) return task;
+  const std::vector<LaneWait> blocks{{RankLane::messages, RankLane::outer}, {RankLane::messages, RankLane::late}};
+  return after(beside ? blocks : others_wait(), std::move(task));
 }
 
 Task RowExchange::receive_task() {
@@ -227,13 +275,13 @@ Task RowExchange::receive_task() {
                 if (!recording_) wait_for_rows(most_ahead);
                 return;
               }
-              with_rows([this](const auto& rows, const auto& buffers) {
+              with_rows([this](const auto& rows) {
                 if (starts_late()) {
                   buffers_->packed.wait();
-                  start_messages(buffers, share_, buffers_->copies, transport_);
+                  start_messages(rows, buffers_->copies, transport_);
                 }
-                finish_messages(buffers, buffers_->copies, transport_);
-                unpack(ExecutionSpace(), rows, buffers, share_);
+                finish_messages(rows, buffers_->copies, transport_);
+                unpack(ExecutionSpace(), rows);
               });
             }};
   task.stage = Stage::own_forces;

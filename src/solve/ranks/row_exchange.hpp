@@ -26,11 +26,9 @@ RowWay wanted_row_way(Transport& transport);
 /// For people.
 const char* description(RowWay way);
 
-template <class S>
-struct PrecisionBuffers;
-
-/// Brings to each rank the rows of partial forces that others' blocks leave for its nodes. All ranks that have a node
-/// add its rows in the same order, so that it goes the same way on each.
+/// Brings to each rank the rows of partial forces that others' blocks leave for its nodes, and the forces by which rank
+/// 0's contact pushes them. All ranks that have a node add its rows in the same order, so that it goes the same way on
+/// each.
 class RowExchange {
  public:
   /// All ranks must make theirs together. Throws what wanted_row_way() throws, and std::runtime_error where NCCL is
@@ -45,6 +43,8 @@ class RowExchange {
 
   /// Never automatic.
   RowWay way() const { return way_; }
+  /// Whether contact of this rank acts on nodes of others.
+  bool pushes_others() const { return share_.rank == 0 && share_.touched.extent(0) > 0; }
   /// Whether devices exchange rows by themselves; else the host waits for them in each step.
   bool between_devices() const { return way_ == RowWay::nccl; }
 
@@ -60,8 +60,9 @@ class RowExchange {
   std::vector<Task> begin_tasks() const;
   /// Between devices.
   Task wait_task(std::vector<LaneWait> waits) const;
-  /// To come after the outer blocks' forces: the rows are on their way from then on.
-  /// @param beside these are in lanes of their own
+  /// To come after the outer blocks' forces, and on rank 0 after contact's springs: the rows are on their way from then
+  /// on.
+  /// @param beside these are in lanes of their own: it waits for the blocks' lanes
   Task send_task(bool beside);
   /// Before anything that needs rows of others in another lane than that of messages. Between devices the inner lane
   /// waits for all others.
@@ -82,14 +83,14 @@ class RowExchange {
   bool starts_late() const { return on_device || way_ == RowWay::mpi; }
 
   /// In the lane of messages, all of it.
-  template <class S>
-  void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
+  template <class Rows>
+  void exchange_on_devices(const Rows& rows) const;
 
   void pass(const std::vector<LaneWait>& waits) const;
   /// The task, with the waits before it.
   Task after(std::vector<LaneWait> waits, Task task) const;
 
-  /// Calls act(rows of partial forces, their buffers).
+  /// Calls act(what is exchanged).
   template <class Do>
   void with_rows(const Do& act) const;
 

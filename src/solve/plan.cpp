@@ -149,7 +149,7 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
   const bool any_late = share.has_late_blocks();
   std::vector<Task> late, outer = elements(share.outer, !any_late), inner = elements(share.inner, false);
   if (any_late) late = elements(share.late, true);
-  std::vector<Task> tasks = exchange.begin_tasks();
+  std::vector<Task> tasks = exchange.begin_tasks(in_lanes(model, kind, exchange));
   if (!exchange.between_devices() || !outer_blocks_may_go_beside(model)) {
     for (std::vector<Task>* next : {&beside.loads, &beside.contact, &late, &outer}) append(tasks, std::move(*next));
     tasks.push_back(exchange.send_task(false));
@@ -195,7 +195,7 @@ std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& ex
   tasks = exchange.in_lane(RankLane::loads, std::move(tasks));
   append(tasks, std::move(nodes.own));
   append(tasks, exchange.in_lane(RankLane::messages, std::move(nodes.between_ranks)));
-  tasks.push_back(exchange.receive_task());
+  tasks.push_back(exchange.end_task());
   return tasks;
 }
 

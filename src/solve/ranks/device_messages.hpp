@@ -46,19 +46,45 @@ class DeviceMessages {
 
 /// What a rank exchanges in a step, and what it computes meanwhile.
 struct ExchangeLoad {
-  std::size_t bytes;  ///< sent or received, whichever is more
-  long elements;      ///< of the inner blocks
+  /// With a neighbour, in the order in which messages come and go.
+  struct Part {
+    int other;
+    std::size_t sent, received;  ///< bytes
+  };
+  std::vector<Part> parts;
+  long elements;  ///< of the inner blocks
+
+  /// Sent or received, whichever is more.
+  std::size_t bytes() const {
+    std::size_t sent = 0, received = 0;
+    for (const Part& part : parts) {
+      sent += part.sent;
+      received += part.received;
+    }
+    return sent > received ? sent : received;
+  }
 };
+
+/// Whether the program was built for GPUs whose memory another process may write to.
+#ifdef KOKKOS_ENABLE_CUDA
+inline constexpr bool has_direct_messages = true;
+#else
+inline constexpr bool has_direct_messages = false;
+#endif
 
 /// Whether the program was built with NCCL, for GPUs that it knows.
 #if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
-inline constexpr bool has_device_messages = true;
+inline constexpr bool has_nccl_messages = true;
 #else
-inline constexpr bool has_device_messages = false;
+inline constexpr bool has_nccl_messages = false;
 #endif
+
+/// Each rank writes into its neighbours' memory, where each has a GPU of its own in the same host and these reach each
+/// other; null elsewhere, on all ranks alike. All ranks must call this together.
+std::unique_ptr<DeviceMessages> direct_messages(Transport& transport, const ExchangeLoad& load);
 
 /// By NCCL, where the program was built with it and each rank has a GPU of its own; null elsewhere, on all ranks alike.
 /// All ranks must call this together.
-std::unique_ptr<DeviceMessages> device_messages(Transport& transport, const ExchangeLoad& load);
+std::unique_ptr<DeviceMessages> nccl_messages(Transport& transport, const ExchangeLoad& load);
 
 }  // namespace railwave

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iterator>
 #include <vector>
 
 namespace railwave {
@@ -27,6 +28,17 @@ struct LaneWait {
 inline std::vector<LaneWait> others_wait() {
   std::vector<LaneWait> waits;
   for (RankLane lane : other_rank_lanes) waits.push_back({lane, RankLane::inner});
+  return waits;
+}
+
+/// The same, and lanes for each other, where the inner lane has not waited for all of them: it alone has no blocks with
+/// nodes that others move.
+inline std::vector<LaneWait> others_wait_in_lanes() {
+  std::vector<LaneWait> waits = others_wait();
+  const LaneWait more[] = {{RankLane::outer, RankLane::messages}, {RankLane::late, RankLane::messages},
+                           {RankLane::late, RankLane::loads},     {RankLane::contact, RankLane::messages},
+                           {RankLane::contact, RankLane::loads},  {RankLane::beams, RankLane::loads}};
+  waits.insert(waits.end(), std::begin(more), std::end(more));
   return waits;
 }
 

@@ -139,13 +139,16 @@ std::vector<DeviceMessages::Message> device_messages_of(const ExchangedRows<S>& 
 }
 
 ExchangeLoad load_of(const RankShare& share, bool single) {
-  long inner_blocks = 0;
-  for (const Array<int*>& of_group : share.inner) inner_blocks += static_cast<long>(of_group.extent(0));
   const std::size_t row = single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
-  const std::size_t contact = sizeof(FixedForce) * share.touched.extent(0);
-  const std::size_t sent = row * share.sent.extent(0) + (share.rank == 0 ? contact : 0);
-  const std::size_t received = row * share.received.extent(0) + (share.rank > 0 ? contact : 0);
-  return {std::max(sent, received), inner_blocks * elements_of_block};
+  ExchangeLoad load{{}, 0};
+  for (const RankShare::Neighbour& one : share.neighbours) {
+    const std::size_t pushes = sizeof(FixedForce) * one.touched_count;
+    load.parts.push_back({one.rank, row * one.sent_count + (share.rank == 0 ? pushes : 0),
+                          row * one.received_count + (share.rank > 0 ? pushes : 0)});
+  }
+  for (const Array<int*>& of_group : share.inner)
+    load.elements += static_cast<long>(of_group.extent(0)) * elements_of_block;
+  return load;
 }
 
 template <class S>
@@ -157,15 +160,31 @@ void finish_messages(const ExchangedRows<S>& rows, const ExecutionSpace& copies,
   copies.fence();
 }
 
-/// Null: by MPI.
-std::unique_ptr<DeviceMessages> messages_for(RowWay wanted, Transport& transport, const ExchangeLoad& load) {
-  if (wanted != RowWay::automatic && wanted != RowWay::nccl) return nullptr;
-  auto messages = device_messages(transport, load);
-  if (wanted == RowWay::nccl && !messages)
+/// Null: by MPI. @param way the one that was found, if any
+std::unique_ptr<DeviceMessages> messages_for(RowWay wanted, Transport& transport, const ExchangeLoad& load,
+                                             RowWay& way) {
+  const auto may_be = [wanted](RowWay one) { return wanted == RowWay::automatic || wanted == one; };
+  std::unique_ptr<DeviceMessages> messages;
+  const auto try_way = [&](RowWay one, const auto& make) {
+    if (messages || !may_be(one)) return;
+    messages = make(transport, load);
+    if (messages) way = one;
+  };
+  try_way(RowWay::direct, direct_messages);
+  try_way(RowWay::nccl, nccl_messages);
+  if (messages) return messages;
+  if (wanted == RowWay::direct)
+    throw std::runtime_error(
+        "RAILWAVE_RANK_MESSAGES=direct wants the ranks' GPUs to write into each other's memory, which they cannot: "
+        "each "
+        "rank needs a GPU of its own, all of one host, that each process sees. Unset the variable, and rows go the "
+        "best "
+        "way that there is");
+  if (wanted == RowWay::nccl)
     throw std::runtime_error(
         "NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join the ranks: each needs a GPU of its own "
         "(NCCL_DEBUG=WARN says more). Unset the variable, and rows go the best way that there is");
-  return messages;
+  return nullptr;
 }
 
 /// Of those by MPI the one that all ranks have.
@@ -180,8 +199,11 @@ RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& tr
                          std::unique_ptr<DeviceMessages> messages)
     : nodal_(nodal), share_(std::move(share)), transport_(transport), way_(wanted_row_way(transport)) {
   const bool single = nodal.partial.single_precision;
-  if (!messages) messages = messages_for(way_, transport, load_of(share_, single));
-  way_ = messages ? RowWay::nccl : way_by_mpi(way_, transport);
+  if (messages)
+    way_ = RowWay::direct;
+  else
+    messages = messages_for(way_, transport, load_of(share_, single), way_);
+  if (!messages) way_ = way_by_mpi(way_, transport);
   buffers_ = std::make_unique<Buffers>(share_, way_, single);
   buffers_->on_devices = std::move(messages);
 }
@@ -234,9 +256,9 @@ Task RowExchange::wait_task(std::vector<LaneWait> waits) const {
   return after(std::move(waits), std::move(task));
 }
 
-std::vector<Task> RowExchange::begin_tasks() const {
+std::vector<Task> RowExchange::begin_tasks(bool in_lanes) const {
   if (!buffers_->on_devices) return {};
-  Task task = wait_task(others_wait());
+  Task task = wait_task(in_lanes ? others_wait_in_lanes() : others_wait());
   task.stage = Stage::begin;
   return {task};
 }
@@ -289,10 +311,23 @@ Task RowExchange::receive_task() {
   return between_devices() ? after(inner_waits(), std::move(task)) : task;
 }
 
+Task RowExchange::end_task() {
+  Task task{"end of a step in lanes", "b, c", [this](const Instant&) {
+              if (recording_) return;
+              pass(inner_waits());
+              wait_for_rows(most_ahead);
+            }};
+  task.stage = Stage::tied_motion;
+  return task;
+}
+
 std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {
   recording_ = true;
   try {
-    auto recorded = buffers_->on_devices->record(launch);
+    auto recorded = buffers_->on_devices->record([&] {
+      launch();
+      pass(inner_waits());
+    });
     recording_ = false;
     return recorded;
   } catch (...) {

@@ -13,7 +13,8 @@ namespace railwave {
 /// How the rows of partial forces go from rank to rank.
 enum class RowWay : int {
   automatic,  ///< the first of those below that all ranks have
-  nccl,       ///< from GPU to GPU, see device_messages.hpp
+  direct,     ///< from GPU to GPU of a host, see direct_messages()
+  nccl,       ///< from GPU to GPU, see nccl_messages()
   mpi,        ///< by an MPI that is given the device's memory
   host        ///< by MPI through the host's memory
 };
@@ -31,9 +32,9 @@ const char* description(RowWay way);
 /// each.
 class RowExchange {
  public:
-  /// All ranks must make theirs together. Throws what wanted_row_way() throws, and std::runtime_error where NCCL is
-  /// wanted and cannot join the ranks.
-  /// @param messages in place of NCCL's
+  /// All ranks must make theirs together. Throws what wanted_row_way() throws, and std::runtime_error where a way from
+  /// GPU to GPU is wanted that the ranks' GPUs do not have.
+  /// @param messages in place of those of GPUs
   RowExchange(const NodalState& nodal, RankShare share, Transport& transport,
               std::unique_ptr<DeviceMessages> messages = nullptr);
   ~RowExchange();
@@ -46,7 +47,7 @@ class RowExchange {
   /// Whether contact of this rank acts on nodes of others.
   bool pushes_others() const { return share_.rank == 0 && share_.touched.extent(0) > 0; }
   /// Whether devices exchange rows by themselves; else the host waits for them in each step.
-  bool between_devices() const { return way_ == RowWay::nccl; }
+  bool between_devices() const { return way_ == RowWay::direct || way_ == RowWay::nccl; }
 
   /// Until no more than so many steps, or graphs of steps, are left whose rows of other ranks have not come, see
   /// Transport::wait_until().
@@ -57,7 +58,8 @@ class RowExchange {
   /// one.
   std::vector<Task> in_lane(RankLane lane, std::vector<Task> tasks) const;
   /// The first of a step: other lanes than the inner one wait for the step before.
-  std::vector<Task> begin_tasks() const;
+  /// @param in_lanes which may have gone on in lanes to its end
+  std::vector<Task> begin_tasks(bool in_lanes) const;
   /// Between devices.
   Task wait_task(std::vector<LaneWait> waits) const;
   /// To come after the outer blocks' forces, and on rank 0 after contact's springs: the rows are on their way from then
@@ -67,6 +69,9 @@ class RowExchange {
   /// Before anything that needs rows of others in another lane than that of messages. Between devices the inner lane
   /// waits for all others.
   Task receive_task();
+  /// Between devices, of a step that goes on in lanes to its end: what comes after it waits for all of them, unless
+  /// that is such a step of the same graph.
+  Task end_task();
 
   /// Between devices: a rank's steps as a graph, see DeviceMessages::record().
   std::unique_ptr<DeviceMessages::Recorded> record(const std::function<void()>& launch);

@@ -18,21 +18,21 @@ std::string text_of_user() {
 }
 
 int way_of(const std::string& text) {
-  static const std::map<std::string, RowWay> ways = {{"", RowWay::automatic},
-                                                     {"auto", RowWay::automatic},
-                                                     {"nccl", RowWay::nccl},
-                                                     {"mpi", RowWay::mpi},
-                                                     {"host", RowWay::host}};
+  static const std::map<std::string, RowWay> ways = {{"", RowWay::automatic},    {"auto", RowWay::automatic},
+                                                     {"direct", RowWay::direct}, {"nccl", RowWay::nccl},
+                                                     {"mpi", RowWay::mpi},       {"host", RowWay::host}};
   const auto found = ways.find(text);
   return found == ways.end() ? unknown : static_cast<int>(found->second);
 }
 
 bool has(const Transport& transport, RowWay way) {
-  if (way == RowWay::nccl) return has_device_messages;
+  if (way == RowWay::direct) return has_direct_messages;
+  if (way == RowWay::nccl) return has_nccl_messages;
   return way != RowWay::mpi || transport.takes_device_memory();
 }
 
 std::string why_not(RowWay way) {
+  if (way == RowWay::direct) return "program was built for no GPU of NVIDIA's";
   if (way == RowWay::nccl) return "program was built without NCCL, or for no GPU of NVIDIA's";
   return "MPI does not say that it takes the GPU's memory; one that was built for that does (Open MPI: "
          "--with-cuda or --with-rocm)";
@@ -45,7 +45,8 @@ RowWay wanted_row_way(Transport& transport) {
   transport.broadcast(&way, sizeof way);
   if (way == unknown)
     throw InputError(fmt::format(
-        "the environment variable RAILWAVE_RANK_MESSAGES is '{}': auto, nccl, mpi or host is wanted; unset it for auto",
+        "the environment variable RAILWAVE_RANK_MESSAGES is '{}': auto, direct, nccl, mpi or host is wanted; unset it "
+        "for auto",
         text_of_user()));
   const RowWay wanted = static_cast<RowWay>(way);
   const int without = transport.first_to_refuse(has(transport, wanted));
@@ -59,6 +60,8 @@ RowWay wanted_row_way(Transport& transport) {
 
 const char* description(RowWay way) {
   switch (way) {
+    case RowWay::direct:
+      return "from GPU to GPU";
     case RowWay::nccl:
       return "from GPU to GPU by NCCL";
     case RowWay::mpi:

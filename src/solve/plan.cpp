@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "model/beams/beams.hpp"
+#include "model/host_copy.hpp"
 #include "solve/ranks/row_exchange.hpp"
 #include "solve/tasks/contributions.hpp"
 
@@ -103,11 +105,31 @@ bool in_lanes(const Model& model, StepKind kind, const RowExchange& exchange) {
          model.subcycling.levels == 1 && (!any_late || exchange.share().has_late_blocks());
 }
 
-/// Loads and beams in their lanes. What needs both waits for beams.
+/// Whether loads, sets of nodes that move as one, or beams concern late nodes.
+bool loads_concern_late_nodes(const Model& model) {
+  std::vector<char> late(model.nodes.count, 0);
+  const auto shared = to_host(model.shared.nodes);
+  for (std::size_t i = model.first_late; i < shared.extent(0); ++i) late[shared(i).node & ~special_bit] = 1;
+  for (const TiedPlace& tied : model.ties.places) late[tied.slave] = 1;
+  std::vector<std::vector<int>> lists{to_vector(model.external.contribution_node), to_vector(model.sets.nodes)};
+  if (model.beams) lists.push_back(to_vector(model.beams->arrays.node));
+  return std::any_of(lists.begin(), lists.end(), [&](const std::vector<int>& nodes) {
+    return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return late[n] != 0; });
+  });
+}
+
+/// What lanes wait for as a step begins.
+std::vector<LaneWait> waits_at_begin(const Model& model, StepKind kind, const RowExchange& exchange) {
+  return in_lanes(model, kind, exchange) ? others_wait_in_lanes(loads_concern_late_nodes(model)) : others_wait();
+}
+
+/// Loads and beams in their lanes. What needs both waits for beams; and for the motion of late nodes, which took the
+/// loads of the step before.
 std::vector<Task> loads_in_lanes(std::vector<Task> loads, const RowExchange& exchange) {
   std::vector<Task> tasks;
   for (Task& task : loads) {
-    if (task.joins == OwnForceLanes::beams) tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::beams}}));
+    if (task.joins == OwnForceLanes::beams)
+      tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::beams}, {RankLane::loads, RankLane::motion}}));
     const RankLane lane = task.lane == OwnForceLanes::beams ? RankLane::beams : RankLane::loads;
     append(tasks, exchange.in_lane(lane, {std::move(task)}));
   }
@@ -120,7 +142,7 @@ std::vector<Task> passed_on_in_lanes(std::vector<Task> forces, const RowExchange
   std::vector<Task> tasks;
   bool beside = false;
   const auto wait = [&] {
-    if (beside) tasks.push_back(exchange.wait_task({{Lane::loads, Lane::late}, {Lane::loads, Lane::contact}}));
+    if (beside) tasks.push_back(exchange.wait_task({{Lane::motion, Lane::late}, {Lane::motion, Lane::contact}}));
     beside = false;
   };
   for (Task& task : forces) {
@@ -129,7 +151,7 @@ std::vector<Task> passed_on_in_lanes(std::vector<Task> forces, const RowExchange
       continue;
     }
     const bool unloaded = task.begins == Begins::beside_loads;
-    const RankLane lane = !unloaded ? Lane::loads : task.stage == Stage::passed_on ? Lane::late : Lane::contact;
+    const RankLane lane = !unloaded ? Lane::motion : task.stage == Stage::passed_on ? Lane::late : Lane::contact;
     if (!unloaded && task.stage > Stage::passed_on) wait();
     beside = beside || unloaded;
     append(tasks, exchange.in_lane(lane, {std::move(task)}));
@@ -149,7 +171,7 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
   const bool any_late = share.has_late_blocks();
   std::vector<Task> late, outer = elements(share.outer, !any_late), inner = elements(share.inner, false);
   if (any_late) late = elements(share.late, true);
-  std::vector<Task> tasks = exchange.begin_tasks(in_lanes(model, kind, exchange));
+  std::vector<Task> tasks = exchange.begin_tasks(waits_at_begin(model, kind, exchange));
   if (!exchange.between_devices() || !outer_blocks_may_go_beside(model)) {
     for (std::vector<Task>* next : {&beside.loads, &beside.contact, &late, &outer}) append(tasks, std::move(*next));
     tasks.push_back(exchange.send_task(false));
@@ -169,14 +191,14 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
     tasks.push_back(exchange.receive_task());
     return tasks;
   }
-  // Before what moves nodes of this rank alone, and late ones. On nodes of several ranks only elements act, and contact
-  // that is waited for above.
+  // Before what moves nodes of this rank alone, ties and late nodes. On nodes of several ranks only elements act, and
+  // contact that is waited for above.
   tasks.push_back(exchange.wait_task({{Lane::inner, Lane::outer},
                                       {Lane::inner, Lane::late},
-                                      {Lane::inner, Lane::loads},
                                       {Lane::inner, Lane::contact},
-                                      {Lane::loads, Lane::late},
-                                      {Lane::loads, Lane::contact},
+                                      {Lane::motion, Lane::loads},
+                                      {Lane::motion, Lane::late},
+                                      {Lane::motion, Lane::contact},
                                       {Lane::late, Lane::contact},
                                       {Lane::contact, Lane::late}}));
   return tasks;
@@ -192,7 +214,9 @@ std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& ex
   RankNodeTasks nodes = rank_node_tasks(model, model);
   append(tasks, std::move(nodes.late));
   append(tasks, std::move(beside.after));
-  tasks = exchange.in_lane(RankLane::loads, std::move(tasks));
+  tasks = exchange.in_lane(RankLane::motion, std::move(tasks));
+  append(tasks, std::move(nodes.own_plain));
+  tasks.push_back(exchange.wait_task({{RankLane::inner, RankLane::loads}}));
   append(tasks, std::move(nodes.own));
   append(tasks, exchange.in_lane(RankLane::messages, std::move(nodes.between_ranks)));
   tasks.push_back(exchange.end_task());

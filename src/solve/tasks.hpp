@@ -190,7 +190,8 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
 
 /// (f to j) The same of a rank, in an advancing step without subcycling, where they need not wait for each other.
 struct RankNodeTasks {
-  std::vector<Task> own;            ///< that wait for elements of this rank, contact and loads
+  std::vector<Task> own_plain;      ///< that wait for elements of this rank alone
+  std::vector<Task> own;            ///< that wait for contact and loads, too
   std::vector<Task> between_ranks;  ///< for rows of other ranks, too, and for no inner blocks
   std::vector<Task> late;           ///< see NodalState::first_late
 };

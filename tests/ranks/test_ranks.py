@@ -286,9 +286,10 @@ class WaysOfRows(Ranks):
     def test_that_there_are_not(self):
         self.write(scene("penalty", 0.02))
         said = self.run_to_end(2, code=2, RAILWAVE_RANK_MESSAGES="gpu")
-        self.assertEqual(said.count("RAILWAVE_RANK_MESSAGES is 'gpu': auto, nccl, mpi or host is wanted"), 1, said)
+        refused = "RAILWAVE_RANK_MESSAGES is 'gpu': auto, direct, nccl, mpi or host is wanted"
+        self.assertEqual(said.count(refused), 1, said)
         self.assertFalse(self.results.exists())
-        if "by NCCL" in self.run_to_end(2):
+        if "from GPU to GPU" in self.run_to_end(2):
             return
         self.results.unlink()
         said = self.start(2, RAILWAVE_RANK_MESSAGES="nccl").communicate(timeout=PATIENCE)[0]

@@ -10,6 +10,7 @@
 #include "solve/ranks/row_exchange.hpp"
 #include "tests/solve/moved_blocks.hpp"
 #include "tests/solve/one_of_two.hpp"
+#include "tests/verify/beam_scene.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -208,6 +209,12 @@ TEST_CASE("lanes of a rank go on side by side, bit for bit, and wait for what th
   SECTION("ties, non-reflecting ends, loads") {
     scene = tied_scene();
     waited_for.push_back(RankLane::loads);
+    waited_for.push_back(RankLane::motion);
+  }
+  SECTION("the same with loads on other nodes than those at ends") {
+    scene = tied_scene();
+    scene.loads.pop_back();
+    waited_for = {RankLane::motion};
   }
   SECTION("in mixed precision") {
     scene = tied_scene();
@@ -217,6 +224,12 @@ TEST_CASE("lanes of a rank go on side by side, bit for bit, and wait for what th
   SECTION("contact by springs, prescribed motions, connectors") {
     scene = in_contact(scene::ContactAlgorithm::penalty);
     waited_for.push_back(RankLane::contact);
+  }
+  SECTION("the same with a beam") {
+    scene = in_contact(scene::ContactAlgorithm::penalty);
+    scene.points = {massless("pole", {0.03, 0.03, 0.2})};
+    scene.beams = {round_beam("pole", "upper.z_max", 0.004, 2)};
+    waited_for = {RankLane::beams, RankLane::motion};
   }
   SECTION("contact by multipliers") { scene = in_contact(scene::ContactAlgorithm::multiplier); }
   const Outcome expected = outcome_in_order(scene);

@@ -122,6 +122,10 @@ TEST_CASE("users choose the way of rows between ranks") {
   CHECK_THROWS_WITH(way_of("mpi", false), ContainsSubstring("'mpi', which rank 0 does not have: its MPI"));
   CHECK_THROWS_AS(way_of("mpi", false), InputError);
   CHECK_THROWS_WITH(way_of("HOST", true), ContainsSubstring("'HOST': auto, direct, nccl, mpi or host is wanted"));
+  if (has_direct_messages)
+    CHECK(way_of("direct", false) == RowWay::direct);
+  else
+    CHECK_THROWS_WITH(way_of("direct", true), ContainsSubstring("'direct', which rank 0 does not have: its program"));
   if (has_nccl_messages)
     CHECK(way_of("nccl", false) == RowWay::nccl);
   else

@@ -21,7 +21,7 @@ namespace railwave {
 namespace {
 
 /// Contact costs about as much as so many elements for each slave node: a few of them are near the other surface.
-constexpr double elements_of_slave_node = 0.5;
+constexpr double elements_of_slave_node = 1;
 /// Weights of METIS are whole numbers: of an element that is evaluated at every step.
 constexpr int weight_of_element = 1 << (most_levels - 1);
 
@@ -212,12 +212,10 @@ std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks)
   const bool takes_part = mean - bound > least_share * mean;
   const std::vector<idx_t> part =
       parts_of(metis_graph(graph, free_blocks, takes_part ? bound : 0), takes_part ? ranks : ranks - 1);
-  const idx_t of_rank_0 = takes_part && bound > 0 ? part.back() : 0;  // the part changes places with the first
-  for (std::size_t v = 0; v < free_blocks.size(); ++v)
-    if (!takes_part)
-      rank[free_blocks[v]] = 1 + static_cast<int>(part[v]);
-    else
-      rank[free_blocks[v]] = static_cast<int>(part[v] == of_rank_0 ? 0 : part[v] == 0 ? of_rank_0 : part[v]);
+  std::vector<int> rank_of_part(ranks);
+  std::iota(rank_of_part.begin(), rank_of_part.end(), takes_part ? 0 : 1);
+  if (takes_part && bound > 0) std::swap(rank_of_part[0], rank_of_part[part.back()]);
+  for (std::size_t v = 0; v < free_blocks.size(); ++v) rank[free_blocks[v]] = rank_of_part[part[v]];
 #endif
   return rank;
 }
@@ -323,8 +321,9 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
     int neighbours = 0;
     for (int other = 0; other < partition.ranks; ++other) {
       rows += static_cast<long>(layout.sent[r][other].size());
-      if (r == 0) of_contact += static_cast<long>(layout.touched[other].size());
-      neighbours += layout.sent[r][other].empty() && (r > 0 || layout.touched[other].empty()) ? 0 : 1;
+      const std::size_t pushed = r == 0 ? layout.touched[other].size() : 0;
+      of_contact += static_cast<long>(pushed);
+      neighbours += layout.sent[r][other].empty() && pushed == 0 ? 0 : 1;
     }
     const double bytes = row * static_cast<double>(rows) + sizeof(FixedForce) * static_cast<double>(of_contact);
     lines.push_back(fmt::format("rank {}: {} elements, {} rows of forces ({:.4g} kB) a step to {} other{}", r,
@@ -333,8 +332,7 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
   }
   lines.push_back(fmt::format(
       "rank 0 has all {} elements beside ties, loads, ends and contact by multipliers; the largest share of work is "
-      "{:.2f} times the "
-      "mean, so {} ranks are at most {:.2f} times as fast as one",
+      "{:.2f} times the mean, so {} ranks are at most {:.2f} times as fast as one",
       partition.bound_elements, partition.imbalance(), partition.ranks, partition.ranks / partition.imbalance()));
   BlockPartition alone;
   alone.elements = {model.element_count()};

@@ -111,7 +111,7 @@ class DeviceLanes : public DeviceMessages {
  private:
   // What has to begin while others fill the device comes first: it is small, and long in line. Messages waited for the
   // last of all teams of lanes before them.
-  UrgentStream messages_{0}, loads_{1}, contact_{1}, beams_{1}, late_{2}, outer_{3};
+  UrgentStream messages_{0}, loads_{1}, contact_{1}, beams_{1}, motion_{1}, late_{2}, outer_{3};
   static constexpr int lanes = 1 + static_cast<int>(std::size(other_rank_lanes));
   /// In the order of RankLane.
   const ExecutionSpace spaces_[lanes] = {ExecutionSpace(),
@@ -120,7 +120,8 @@ class DeviceLanes : public DeviceMessages {
                                          ExecutionSpace(messages_.get()),
                                          ExecutionSpace(loads_.get()),
                                          ExecutionSpace(contact_.get()),
-                                         ExecutionSpace(beams_.get())};
+                                         ExecutionSpace(beams_.get()),
+                                         ExecutionSpace(motion_.get())};
   Mark marks_[lanes];
   const int exceptions_ = std::uncaught_exceptions();
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iterator>
 #include <vector>
 
 namespace railwave {
@@ -12,12 +11,13 @@ enum class RankLane : int {
   late,      ///< blocks with late nodes, which ties, multipliers, prescribed motions or ends move; then ties, where
              ///< they need no loads
   messages,  ///< rows to and from other ranks, then nodes of several ranks
-  loads,     ///< loads; then ends, and what moves late nodes
-  contact,   ///< springs; multipliers, where they need no loads
-  beams
+  loads,
+  contact,  ///< springs; multipliers, where they need no loads
+  beams,
+  motion  ///< ends, ties and multipliers that need loads, late nodes
 };
-inline constexpr RankLane other_rank_lanes[] = {RankLane::outer, RankLane::late,    RankLane::messages,
-                                                RankLane::loads, RankLane::contact, RankLane::beams};
+inline constexpr RankLane other_rank_lanes[] = {RankLane::outer,   RankLane::late,  RankLane::messages, RankLane::loads,
+                                                RankLane::contact, RankLane::beams, RankLane::motion};
 
 /// What a lane launches from then on comes after all that another has launched.
 struct LaneWait {
@@ -33,12 +33,14 @@ inline std::vector<LaneWait> others_wait() {
 
 /// The same, and lanes for each other, where the inner lane has not waited for all of them: it alone has no blocks with
 /// nodes that others move.
-inline std::vector<LaneWait> others_wait_in_lanes() {
+/// @param loads_wait loads and beams act on late nodes
+inline std::vector<LaneWait> others_wait_in_lanes(bool loads_wait) {
   std::vector<LaneWait> waits = others_wait();
-  const LaneWait more[] = {{RankLane::outer, RankLane::messages}, {RankLane::late, RankLane::messages},
-                           {RankLane::late, RankLane::loads},     {RankLane::contact, RankLane::messages},
-                           {RankLane::contact, RankLane::loads},  {RankLane::beams, RankLane::loads}};
-  waits.insert(waits.end(), std::begin(more), std::end(more));
+  for (RankLane lane : {RankLane::outer, RankLane::late, RankLane::contact})
+    waits.push_back({lane, RankLane::messages});
+  for (RankLane lane : {RankLane::late, RankLane::contact}) waits.push_back({lane, RankLane::motion});
+  if (loads_wait)
+    for (RankLane lane : {RankLane::loads, RankLane::beams}) waits.push_back({lane, RankLane::motion});
   return waits;
 }
 

@@ -175,11 +175,9 @@ std::unique_ptr<DeviceMessages> messages_for(RowWay wanted, Transport& transport
   if (messages) return messages;
   if (wanted == RowWay::direct)
     throw std::runtime_error(
-        "RAILWAVE_RANK_MESSAGES=direct wants the ranks' GPUs to write into each other's memory, which they cannot: "
-        "each "
-        "rank needs a GPU of its own, all of one host, that each process sees. Unset the variable, and rows go the "
-        "best "
-        "way that there is");
+        "RAILWAVE_RANK_MESSAGES=direct wants GPUs that write into each other's memory, which the ranks' cannot: each "
+        "needs one of its own, all in one host, and must see the others'. Unset the variable, and rows go the best way "
+        "that there is");
   if (wanted == RowWay::nccl)
     throw std::runtime_error(
         "NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join the ranks: each needs a GPU of its own "
@@ -256,9 +254,9 @@ Task RowExchange::wait_task(std::vector<LaneWait> waits) const {
   return after(std::move(waits), std::move(task));
 }
 
-std::vector<Task> RowExchange::begin_tasks(bool in_lanes) const {
+std::vector<Task> RowExchange::begin_tasks(std::vector<LaneWait> waits) const {
   if (!buffers_->on_devices) return {};
-  Task task = wait_task(in_lanes ? others_wait_in_lanes() : others_wait());
+  Task task = wait_task(std::move(waits));
   task.stage = Stage::begin;
   return {task};
 }

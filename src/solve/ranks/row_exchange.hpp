@@ -58,8 +58,8 @@ class RowExchange {
   /// one.
   std::vector<Task> in_lane(RankLane lane, std::vector<Task> tasks) const;
   /// The first of a step: other lanes than the inner one wait for the step before.
-  /// @param in_lanes which may have gone on in lanes to its end
-  std::vector<Task> begin_tasks(bool in_lanes) const;
+  /// @param waits for it
+  std::vector<Task> begin_tasks(std::vector<LaneWait> waits) const;
   /// Between devices.
   Task wait_task(std::vector<LaneWait> waits) const;
   /// To come after the outer blocks' forces, and on rank 0 after contact's springs: the rows are on their way from then

@@ -199,12 +199,10 @@ RankNodeTasks rank_node_tasks(const NodalState& nodal, const LoadModel& loads) {
   // All ranks wait for these: plain ones have no launch of their own beside others.
   const SharedRange several{name + ", of several ranks", between.begin, between.end};
   const bool mixed = between.begin < nodal.shared.first_special && nodal.shared.first_special < between.end;
-  RankNodeTasks all{tasks(", of this rank alone", between.end, nodal.first_late),
-                    mixed ? placed({shared_task(nodal, loads, false, several)}, Stage::other_motion, 0)
-                          : tasks(", of several ranks", between.begin, between.end),
-                    tasks(", that wait for others", nodal.first_late, static_cast<int>(nodal.shared.nodes.extent(0)))};
-  append(all.own, tasks(", of this rank alone", 0, between.begin));
-  return all;
+  return {tasks(", of this rank alone", 0, between.begin), tasks(", of this rank alone", between.end, nodal.first_late),
+          mixed ? placed({shared_task(nodal, loads, false, several)}, Stage::other_motion, 0)
+                : tasks(", of several ranks", between.begin, between.end),
+          tasks(", that wait for others", nodal.first_late, static_cast<int>(nodal.shared.nodes.extent(0)))};
 }
 
 }  // namespace railwave

@@ -1,6 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <set>
 
+#include "case/error.hpp"
 #include "model/host_copy.hpp"
 #include "model/ranks/rank_share.hpp"
 #include "tests/verify/two_blocks.hpp"
@@ -174,5 +175,31 @@ TEST_CASE("rank 0 moves what its contact by springs pushes, whoever has the bloc
     const auto [begin, end] = model.between_ranks;
     const std::vector<int> between = shared_range(model, begin, end);
     for (int n : slaves) CHECK((std::count(between.begin(), between.end(), n) == 1) == (rank != 1));
+  }
+}
+
+TEST_CASE("ranks have alike work, and rank 0 all that is bound to it") {
+  long bound_by_springs = 0;
+  for (const auto algorithm : both_algorithms) {
+    TwoBlocks blocks;
+    blocks.lower_divisions = {32, 32, 24};
+    blocks.algorithm = algorithm;
+    Model model;
+    build_model(blocks.scene(1e-4), model);
+    for (const int ranks : {2, 3, 4}) {
+      BlockPartition partition;
+      try {
+        partition = partition_blocks(model, ranks);
+      } catch (const InputError&) {
+        SKIP("the program is built without MPI and METIS");
+      }
+      INFO(name_of(algorithm) << ", " << ranks << " ranks");
+      CHECK(partition.imbalance() < 1.05);
+      if (algorithm == scene::ContactAlgorithm::penalty)
+        bound_by_springs = partition.bound_elements;
+      else
+        CHECK(partition.bound_elements > bound_by_springs);
+      CHECK(partition.elements[0] >= partition.bound_elements);
+    }
   }
 }

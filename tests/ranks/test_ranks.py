@@ -295,6 +295,15 @@ class WaysOfRows(Ranks):
         said = self.start(2, RAILWAVE_RANK_MESSAGES="nccl").communicate(timeout=PATIENCE)[0]
         self.assertRegex(said, "built without NCCL|NCCL, which RAILWAVE_RANK_MESSAGES=nccl wants, cannot join")
 
+    def test_from_gpu_to_gpu(self):
+        self.write(scene("penalty"))
+        said = self.run_to_end(2)
+        if "rows from GPU to GPU" not in said:
+            self.skipTest("this takes two GPUs of one host")
+        direct = self.kept("direct.h5")
+        self.run_to_end(2, RAILWAVE_RANK_MESSAGES="host")
+        self.assert_same(direct, self.results)
+
     def test_through_the_host(self):
         self.write(scene("penalty", 0.02))
         self.assertIn("3 ranks, rows through the host;", self.run_to_end(3, RAILWAVE_RANK_MESSAGES="host"))

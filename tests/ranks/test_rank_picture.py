@@ -42,14 +42,15 @@ class RankPicture(Ranks):
         self.call(sys.executable, "-B", PICTURE, "--mesh", "model.h5")
         self.assertGreater((self.folder / "model-ranks.png").stat().st_size, 10000)
 
-    def test_elements_at_a_contact_are_of_rank_0(self):
-        self.write(scene("penalty"))
-        parts = self.mesh("--ranks", 3)
-        upper = parts["upper"]
-        heights = upper["coordinates"][upper["connectivity"]][:, :, 2].min(axis=1)
-        lowest = heights < heights.min() + 1e-9
-        self.assertTrue(np.all(upper["rank"][lowest] == 0))
-        self.assertTrue(np.any(np.concatenate([part["rank"] for part in parts.values()]) > 0))
+    def test_elements_at_a_contact_by_multipliers_are_of_rank_0(self):
+        for kind in ("multiplier", "penalty"):
+            self.write(scene(kind))
+            parts = self.mesh("--ranks", 3)
+            upper = parts["upper"]
+            heights = upper["coordinates"][upper["connectivity"]][:, :, 2].min(axis=1)
+            lowest = heights < heights.min() + 1e-9
+            self.assertEqual(np.all(upper["rank"][lowest] == 0), kind == "multiplier")
+            self.assertTrue(np.any(np.concatenate([part["rank"] for part in parts.values()]) > 0))
 
     def test_without_ranks(self):
         self.write(scene("penalty"))

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <stdexcept>
 
 #include "model/host_copy.hpp"
 
@@ -248,34 +247,21 @@ void StaticCoarse::factor(const SpringCollector& springs) {
     shift[aggregate_[n]] += tangent_.shift() * tangent_.diagonal()(n);
     members[aggregate_[n]] += 1;
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(blocks.size() * modes * modes);
-  for (const auto& [place, block] : blocks)
-    for (int c = 0; c < modes; ++c)
-      for (int r = 0; r < modes; ++r) {
-        const int row = place.first * modes + r, column = place.second * modes + c;
-        if (row < column) continue;
-        double value = block(r, c);
-        if (row == column) {
-          value += shift[place.first] / members[place.first];
-          if (unused_[row] != 0) value = 1;
-        }
-        if (value != 0) entries.emplace_back(row, column, value);
-      }
-  Eigen::SparseMatrix<double> matrix(count_ * modes, count_ * modes);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  if (!factors_) factors_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
-  factors_->compute(matrix);
-  if (factors_->info() != Eigen::Success)
-    throw std::runtime_error("the static equilibrium's coarse stiffness is singular");
+  for (int a = 0; a < count_; ++a) {
+    Block& own = blocks.at({a, a});
+    for (int m = 0; m < modes; ++m) {
+      own(m, m) += shift[a] / members[a];
+      if (unused_[a * modes + m] != 0) own(m, m) = 1;
+    }
+  }
+  factors_ = std::make_unique<CoarseFactors>(count_, blocks);
 }
 
 void StaticCoarse::precondition(const NodeVector& r, const NodeVector& z) const {
   Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes, threads_of_sum),
                        CoarseRestrict{on_device_, r, coarse_});
   const auto host = to_host(coarse_);
-  Eigen::Map<Eigen::VectorXd> y(host.data(), count_ * modes);
-  y = factors_->solve(y).eval();
+  factors_->solve(host.data());
   Kokkos::deep_copy(coarse_, host);
   Kokkos::parallel_for("coarse_and_fine", Range(0, static_cast<int>(r.extent(0))),
                        CoarseAndFine{on_device_, coarse_, tangent_.inverse_blocks(), r, z});

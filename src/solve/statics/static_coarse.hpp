@@ -1,10 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <map>
 #include <memory>
 
+#include "solve/statics/coarse_factors.hpp"
 #include "solve/statics/static_tangent.hpp"
 
 namespace railwave {
@@ -16,7 +15,7 @@ class StaticCoarse {
  public:
   StaticCoarse(const Assembly& assembly, const Array<double* [3]>& position, const StaticTangent& tangent);
 
-  /// Adds the springs to the elements' part of E and factors it. Throws std::runtime_error when E is not positive.
+  /// Adds the springs to the elements' part of E and factors it. Throws std::runtime_error where a pivot vanishes.
   void factor(const SpringCollector& springs);
 
   /// z = B^-1 r + Z E^-1 Z^T r
@@ -26,8 +25,8 @@ class StaticCoarse {
 
  private:
   static constexpr int modes = CoarseModes::of_aggregate;
-  using Block = Eigen::Matrix<double, modes, modes>;
-  using Blocks = std::map<std::pair<int, int>, Block>;  ///< row aggregate >= column aggregate
+  using Block = CoarseFactors::Block;
+  using Blocks = CoarseFactors::Blocks;
 
   void divide_nodes(const Assembly& assembly);
   void divide(const std::vector<CornerNodes>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
@@ -74,7 +73,7 @@ class StaticCoarse {
   Blocks of_elements_;
   CoarseModes on_device_;
   Array<double*> coarse_;
-  std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> factors_;
+  std::unique_ptr<CoarseFactors> factors_;
 };
 
 }  // namespace railwave

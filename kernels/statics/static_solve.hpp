@@ -173,9 +173,29 @@ struct CoarseRestrict {
   CoarseModes modes;
   NodeVector r;
   Array<double*> y;
-  /// One team for each entry of y.
+  /// Entries of y that a team finds: a processor asks for each node once.
+  static constexpr int entries_of_team = on_device ? 1 : CoarseModes::of_aggregate;
+
   template <class Member>
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    if constexpr (on_device)
+      find_entry(team);
+    else
+      find_entries(team.league_rank());
+  }
+
+  KOKKOS_INLINE_FUNCTION void find_entries(int a) const {
+    double sum[CoarseModes::of_aggregate] = {};
+    for (int p = modes.first(a); p < modes.first(a + 1); ++p) {
+      const int n = modes.node(p);
+      for (int m = 0; m < CoarseModes::of_aggregate; ++m)
+        for (int i = 0; i < 3; ++i) sum[m] += modes.mode(n, 3 * m + i) * r(n, i);
+    }
+    for (int m = 0; m < CoarseModes::of_aggregate; ++m) y(a * CoarseModes::of_aggregate + m) = sum[m];
+  }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void find_entry(const Member& team) const {
     const int k = team.league_rank(), a = k / CoarseModes::of_aggregate, m = k % CoarseModes::of_aggregate;
     double sum = 0;
     Kokkos::parallel_reduce(

@@ -258,7 +258,7 @@ void StaticCoarse::factor(const SpringCollector& springs) {
 }
 
 void StaticCoarse::precondition(const NodeVector& r, const NodeVector& z) const {
-  Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes, threads_of_sum),
+  Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes / CoarseRestrict::entries_of_team, threads_of_sum),
                        CoarseRestrict{on_device_, r, coarse_});
   const auto host = to_host(coarse_);
   factors_->solve(host.data());

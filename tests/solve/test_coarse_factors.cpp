@@ -1,6 +1,8 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <random>
+#include <stdexcept>
 
 #include "solve/statics/coarse_factors.hpp"
 

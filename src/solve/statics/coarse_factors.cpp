@@ -26,7 +26,7 @@ std::vector<int> order_of_elimination(int aggregates, const CoarseFactors::Block
   return place;
 }
 
-/// Of the factors from those of the matrix: a column has all rows of those columns whose first row it is.
+/// Of the factors from those of the matrix, in any order: a column has all rows of those columns whose first row it is.
 Rows filled_rows(Rows rows) {
   for (std::size_t column = 0; column < rows.size(); ++column) {
     std::vector<int>& own = rows[column];

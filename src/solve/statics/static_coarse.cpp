@@ -239,7 +239,6 @@ void StaticCoarse::add_springs(const SpringCollector& springs, Blocks& blocks) c
 
 void StaticCoarse::factor(const SpringCollector& springs) {
   Blocks blocks = of_elements_;
-  for (int a = 0; a < count_; ++a) blocks.try_emplace({a, a}, Block::Zero());
   add_springs(springs, blocks);
   // The modes are orthonormal, so the tangent's shift is one of about its size here too.
   std::vector<double> shift(count_, 0), members(count_, 0);
@@ -248,7 +247,7 @@ void StaticCoarse::factor(const SpringCollector& springs) {
     members[aggregate_[n]] += 1;
   }
   for (int a = 0; a < count_; ++a) {
-    Block& own = blocks.at({a, a});
+    Block& own = blocks.try_emplace({a, a}, Block::Zero()).first->second;
     for (int m = 0; m < modes; ++m) {
       own(m, m) += shift[a] / members[a];
       if (unused_[a * modes + m] != 0) own(m, m) = 1;

@@ -20,6 +20,7 @@
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/paraview_files.hpp"
 #include "solve/statics/settle.hpp"
 #include "solve/tasks/beam_forces.hpp"
@@ -214,11 +215,14 @@ void ResultsFile::writing(const Do& one) {
   } catch (const std::exception& error) {
     std::error_code ignored;
     const bool can_go_on = checkpoint_ && std::filesystem::exists(checkpoint_->path(), ignored);
-    const std::string what_is_left = std::filesystem::exists(path_, ignored)
+    const bool taken = dynamic_cast<const hdf5::NameTaken*>(&error) != nullptr;
+    const std::string what_is_left = taken ? fmt::format("the file {} is not this run's", path_)
+                                     : std::filesystem::exists(path_, ignored)
                                          ? fmt::format("the results {} hold what was written before", path_)
                                          : "no results were written";
-    throw std::runtime_error(fmt::format("{}; {}{}", error.what(), what_is_left,
-                                         can_go_on ? ", and --restart goes on from the last checkpoint" : ""));
+    throw std::runtime_error(fmt::format(
+        "{}; {}{}{}", error.what(), what_is_left, can_go_on ? ", and --restart goes on from the last checkpoint" : "",
+        can_go_on && taken ? fmt::format(" when what was written has the name {} again", path_) : ""));
   }
 }
 

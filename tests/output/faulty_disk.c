@@ -1,10 +1,15 @@
 /* Stands between a program and the system (LD_PRELOAD) and makes the disk fail, or kills the program, at a chosen call.
- * Calls that change something under FAULTY_FOLDER are counted, from 1. FAULTY_COUNT=FILE        their number is written
- * there at the end FAULTY_LIST=FILE         each is listed there FAULTY_KILL=N            the program is killed at the
- * N-th; FAULTY_TORN=1: when half of what it writes is written FAULTY_FAIL=N            the N-th and all after it are
- * refused, but for removing and shortening FAULTY_ERRNO=E           so; else no space is left FAULTY_ONLY=TEXT count
- * those only on files whose names hold TEXT FAULTY_CLOCK=S           the clock on the wall is S seconds off at every
- * other look at it */
+ * Calls that change something under FAULTY_FOLDER are counted, from 1.
+ *
+ * - FAULTY_COUNT=FILE: their number is written there at the end.
+ * - FAULTY_LIST=FILE: each is listed there.
+ * - FAULTY_KILL=N: the program is killed at the N-th; FAULTY_TORN=1: when half of what it writes is written.
+ * - FAULTY_FAIL=N: the N-th and all after it are refused, but for removing and shortening; FAULTY_ERRNO=E: so, else
+ *   no space is left.
+ * - FAULTY_ONLY=TEXT: those are counted only on files whose names hold TEXT.
+ * - FAULTY_CLOCK=S: the clock on the wall is S seconds off at every other look at it.
+ * - FAULTY_TAKEN=FILE: as soon as FILE is there and the program has asked for the facts of an open file (FAULTY_ONLY),
+ *   FILE takes that file's name. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -123,6 +128,24 @@ int ftruncate64(int file, off_t length) {
   char path[4096];
   return counted("ftruncate", path_of(file, path), 0, !shortens(file, length)) ? -1 : REAL(ftruncate64)(file, length);
 }
+
+/* Somebody else's rename falls between two looks of the program. */
+static void take_name(int file) {
+  const char* other = getenv("FAULTY_TAKEN");
+  char path[4096];
+  if (other && watched(path_of(file, path)) && !strstr(path, " (deleted)")) REAL(rename)(other, path);
+}
+int fstat(int file, struct stat* facts) {
+  const int done = REAL(fstat)(file, facts);
+  if (done == 0) take_name(file);
+  return done;
+}
+int fstat64(int file, struct stat64* facts) {
+  const int done = REAL(fstat64)(file, facts);
+  if (done == 0) take_name(file);
+  return done;
+}
+
 int fsync(int file) {
   char path[4096];
   return counted("fsync", path_of(file, path), 0, 1) ? -1 : REAL(fsync)(file);

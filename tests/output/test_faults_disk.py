@@ -233,9 +233,9 @@ class NoPermission(Folder):
 
 
 class Vanished(Folder):
-    def running(self, *options):
+    def running(self, *options, **how):
         self.case(end=LONG)
-        run = self.start("run", "case.toml", *options)
+        run = self.start("run", "case.toml", *options, **how)
         described = self.folder / "results.xdmf"  # comes after the first output
         while not described.exists() or len(self.results.read_bytes()) < 30000:
             self.assertIsNone(run.poll())
@@ -270,17 +270,61 @@ class Vanished(Folder):
         self.assertIn("was moved while the run wrote it; the file now has both names", complaint)
         self.reported("results moved while running", 130, complaint)
 
-    def test_name_taken(self):
-        run = self.running()
-        other = self.folder / "other.h5"
+    def others(self, name):
+        """A file of somebody else's appears under this name at once, so that the run has no moment to write its own."""
+        other = self.folder / "other"
         other.write_bytes(b"somebody else's")
-        other.rename(self.results)  # at once, so that the run has no moment to write its own anew
+        other.rename(self.folder / name)
+
+    def rescued(self, run, beside):
         complaint, _ = self.ends(run, 1)
         self.assertIn("another file has taken the name results.h5", complaint)
+        self.assertIn(f"is in {beside}; the file results.h5 is not this run's", complaint)
         self.assertEqual(self.results.read_bytes(), b"somebody else's")
-        with h5py.File(self.folder / "results.h5.rescued", "r") as file:
+        with h5py.File(self.folder / beside, "r") as file:
             self.assertGreaterEqual(len(file["history/time"]), 1)
+        return complaint
+
+    def test_name_taken(self):
+        run = self.running()
+        self.others("results.h5")
+        complaint = self.rescued(run, "results.h5.rescued")
         self.reported("results replaced by another file while running", 1, complaint)
+
+    def test_name_taken_and_restart(self):
+        """What was rescued is gone on from once it has its name again."""
+        run = self.running(*SOMETIMES)
+        while not self.checkpoint.exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        self.others("results.h5")
+        complaint = self.rescued(run, "results.h5.rescued")
+        self.assertIn("--restart goes on from the last checkpoint when what was written has the name", complaint)
+        self.reported("results with a checkpoint replaced by another file while running", 1, complaint)
+        (self.folder / "results.h5.rescued").rename(self.results)
+        self.ends(self.start("run", "case.toml", "--restart", "--wall-time", "1"), 4)
+
+    def test_name_taken_between_two_looks(self):
+        """When the run has just seen that its file has a name."""
+        run = self.running(faults=dict(only="/results.h5", taken=self.folder / "taken"))
+        self.others("taken")
+        self.rescued(run, "results.h5.rescued")
+
+    def test_moved_and_name_taken(self):
+        run = self.running()
+        self.results.rename(self.folder / "moved.h5")
+        self.others("results.h5")
+        self.rescued(run, "results.h5.rescued")
+        with h5py.File(self.folder / "moved.h5", "r") as file:
+            self.assertGreaterEqual(len(file["history/time"]), 1)
+
+    def test_rescued_twice(self):
+        """What was rescued before stays."""
+        (self.folder / "results.h5.rescued").write_bytes(b"rescued before")
+        run = self.running()
+        self.others("results.h5")
+        self.rescued(run, "results.h5.rescued-2")
+        self.assertEqual((self.folder / "results.h5.rescued").read_bytes(), b"rescued before")
 
     def test_folder_removed(self):
         self.case(end=LONG)

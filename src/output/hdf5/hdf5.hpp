@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -175,6 +176,11 @@ class Group {
   std::string name_;
   bool extends_ = false;  ///< takes what is there
   ThreadCount threads_;
+};
+
+/// Another file has the name of one that is being written; says where what was written is now.
+class NameTaken : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 class File {

@@ -24,8 +24,8 @@ int& descriptor_of(hid_t file);
 
 /// A file that is being written and whose name was taken from it, or that was moved, gets its name again; one without
 /// any name is written anew from what the system still holds of it.
-/// @return what was done, for people; empty: the name is there. Throws std::runtime_error, saying where the data are,
-/// if another file has taken the name, or if the system refuses.
+/// @return what was done, for people; empty: the name is there. Throws NameTaken (hdf5.hpp) if another file has taken
+/// the name, std::runtime_error if the system refuses.
 std::string keep_name(hid_t file, const std::string& path);
 
 }  // namespace railwave::hdf5

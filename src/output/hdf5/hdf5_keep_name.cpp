@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <stdexcept>
 #include <vector>
 
 #include "output/disk.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_journal.hpp"
 
 namespace railwave::hdf5 {
@@ -37,15 +37,32 @@ bool write_anew(int descriptor, const std::string& path) {
   return false;
 }
 
-/// @param links how many names the run's own file still has
-[[noreturn]] void leave_to_another(int descriptor, const std::string& path, nlink_t links) {
-  const std::string beside = path + ".rescued";
-  const bool rescued = links == 0 && write_anew(descriptor, beside);
-  throw std::runtime_error("another file has taken the name " + path +
-                           " while this run wrote it; what the run has written so far is " +
-                           (rescued     ? "in " + beside
-                            : links > 0 ? std::string("where it was moved to")
-                                        : "lost: " + disk::reason()));
+/// The file gets this name beside those that it has; it is refused where it has none left.
+bool link_as(int descriptor, const std::string& path) {
+  return linkat(AT_FDCWD, ("/proc/self/fd/" + std::to_string(descriptor)).c_str(), AT_FDCWD, path.c_str(),
+                AT_SYMLINK_FOLLOW) == 0;
+}
+
+/// The first name beside PATH that nobody has, under which the file is from now on; empty: it could not be had.
+/// Whether the file still has another name isn't asked, as the answer would be old by the time that it is used.
+std::string rescue(int descriptor, const std::string& path) {
+  for (int number = 1;; ++number) {
+    const std::string beside = path + ".rescued" + (number > 1 ? "-" + std::to_string(number) : "");
+    if (link_as(descriptor, beside) || write_anew(descriptor, beside)) return beside;
+    if (errno != EEXIST) return {};
+  }
+}
+
+[[noreturn]] void leave_to_another(int descriptor, const std::string& path) {
+  const std::string beside = rescue(descriptor, path);
+  const std::string reason = disk::reason();
+  struct stat ours;
+  const bool has_a_name = fstat(descriptor, &ours) == 0 && ours.st_nlink > 0;
+  throw NameTaken("another file has taken the name " + path +
+                  " while this run wrote it; what the run has written so far is " +
+                  (!beside.empty() ? "in " + beside
+                   : has_a_name    ? std::string("where it was moved to")
+                                   : "lost: " + reason));
 }
 
 }  // namespace
@@ -56,12 +73,10 @@ std::string keep_name(hid_t file, const std::string& path) {
   if (fstat(descriptor, &ours) != 0) throw std::runtime_error("asking for " + path + ": " + disk::reason());
   const bool taken = stat(path.c_str(), &there) == 0;
   if (taken && there.st_ino == ours.st_ino && there.st_dev == ours.st_dev) return {};
-  if (taken) leave_to_another(descriptor, path, ours.st_nlink);
-  if (ours.st_nlink > 0 && linkat(AT_FDCWD, ("/proc/self/fd/" + std::to_string(descriptor)).c_str(), AT_FDCWD,
-                                  path.c_str(), AT_SYMLINK_FOLLOW) == 0)
-    return path + " was moved while the run wrote it; the file now has both names";
+  if (taken) leave_to_another(descriptor, path);
+  if (link_as(descriptor, path)) return path + " was moved while the run wrote it; the file now has both names";
   if (!write_anew(descriptor, path)) {
-    if (errno == EEXIST) leave_to_another(descriptor, path, ours.st_nlink);  // since we looked
+    if (errno == EEXIST) leave_to_another(descriptor, path);  // since we looked
     const std::string reason = disk::reason();
     throw std::runtime_error(path + " was removed while the run wrote it, and cannot be written anew: " + reason);
   }

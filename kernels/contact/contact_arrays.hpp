@@ -89,13 +89,16 @@ struct ContactArrays {
 struct alignas(16) WindowEntry {
   int slave;  ///< position among the pair's slave nodes
   int node;   ///< model node number
-  int near;  ///< near_one_sheet, near_several_sheets: it can touch until the next check, and is projected at each step;
-             ///< 0: far
-  int unused;
+  int near;   ///< near_one_sheet, near_several_sheets: it can touch until the next check, and is projected at each step
+              ///< unless it rests; 0: far
+  int rests;  ///< steps after the check until it is looked at again, as it surely touches no sooner; 0: it doesn't rest
+
+  /// Whether each step projects it.
+  KOKKOS_INLINE_FUNCTION bool projected() const { return near != 0 && rests == 0; }
 };
 
-/// The slave nodes that can touch before the window is built again, ascending, and those of them that can touch before
-/// the next check.
+/// The slave nodes that can touch before the window is built again, ascending, and those of them that each step
+/// projects.
 struct ContactWindow {
   int count = 0;
   int room = 0;                 ///< nodes that launches are made for at least
@@ -103,9 +106,18 @@ struct ContactWindow {
   Array<int*> near;             ///< places in `entries`, in any order: what the nodes do does not depend on each other
   Array<int*> near_count;       ///< one
 
-  /// What launches over the near nodes, whose number the device knows, are made for: no less than the window has, and
-  /// seldom another, so that they can be recorded.
+  /// What a GPU's launches over the near nodes, whose number the device knows, are made for: no less than the window
+  /// has, and seldom another, so that they can be recorded.
   KOKKOS_INLINE_FUNCTION int bound() const { return ((count > room ? count : room) + grain - 1) / grain * grain; }
+
+  /// How many nodes a launch over the near ones is for. A processor's threads share those that there are, where the
+  /// first thread would have all of them if the others had the rest of the window.
+  KOKKOS_INLINE_FUNCTION int launched() const {
+    if constexpr (on_device)
+      return bound();
+    else
+      return near_count(0);
+  }
 
   /// The number of nodes from now on. Where it is more than there is room for, room for an eighth more is made, and
   /// kept: launches of another size are recorded anew, which takes as long as a hundred steps.

@@ -415,7 +415,7 @@ struct MultiplierPairs {
   /// pointer than that it points somewhere.
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
-    const int of_first = pairs[0].window.bound();
+    const int of_first = pairs[0].window.launched();
     if (i < of_first)
       pairs[0].item(phase, i, sweep);
     else if constexpr (count == 2)

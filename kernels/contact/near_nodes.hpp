@@ -5,11 +5,28 @@
 
 namespace railwave {
 
+/// When a near node need not be projected at each step until the next check.
+struct NearRest {
+  int since = 0;     ///< steps since the check
+  double spans = 0;  ///< how many spans there are from now until the next check; 0: none rests
+  /// Steps between two looks at those that rest: few of a hundred near nodes touch, and to look at one once more costs
+  /// as much as to project it some times.
+  static constexpr int span = 8;
+
+  /// @param room m, how much nearer the node may come
+  /// @param reach m, how much nearer it can come until the next check
+  KOKKOS_INLINE_FUNCTION int steps(double room, double reach) const {
+    const double left = spans * room;
+    return left >= reach ? since + span * static_cast<int>(left / reach) : 0;
+  }
+};
+
 /// Sorts the slave nodes of the window into near and far; the next check may be many steps later. Each step until then
 /// projects the near nodes only. A node is far when its distance from the master is larger than the distance that both
 /// can move until the next check: 1.25 times their present speeds times the interval, plus `sudden` for what waves and
-/// loads can add. Of nodes that do not touch, those near a segment's box, or all if `thorough`, are projected here;
-/// that renews their tracked segment and, outside the body, their gap.
+/// loads can add. A near one for which a part of that time is as short rests until then. Of nodes that do not touch,
+/// those near a segment's box, or all if `thorough`, are projected here; that renews their tracked segment and, outside
+/// the body, their gap.
 struct FindNearNodes {
   ContactSearch search;
   ContactWindow window;
@@ -21,6 +38,7 @@ struct FindNearNodes {
   Array<int*> missed;  ///< one value: nodes that came through the surface although the check before found them far
   Array<const double*> counted;  ///< N/m by slave: spring that is counted in the present step; empty: nobody asks
   Array<int*> uncounted;         ///< one value: near nodes whose spring is stiffer
+  NearRest rest;
 
   /// @param by the search, of a thread or a team
   /// @param writes of a team's threads one
@@ -30,8 +48,9 @@ struct FindNearNodes {
     WindowEntry entry = window.entries(i);
     const int s = entry.slave;
     const bool touching = contact.status(s) != status_apart;
-    const bool was_near = entry.near != 0;
+    const bool was_projected = entry.projected();
     entry.near = near_one_sheet;
+    entry.rests = 0;
     const Vector3 slave = row(search.position, entry.node);
     if (!touching && !thorough && !by.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
       entry.near = 0;
@@ -43,10 +62,13 @@ struct FindNearNodes {
       const double far = reach(entry.node, found.segment);
       const double tolerance =
           ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
-      // The comparison is false for NaN, so such a node stays near.
-      if (!penetrating && norm(found.offset) > far + tolerance)
+      const double room = penetrating ? 0 : norm(found.offset) - tolerance;
+      // The comparisons are false for NaN, so such a node stays near.
+      if (room > far)
         entry.near = 0;
-      else if (by.several_sheets(slave, found, norm(found.offset) + 2 * far))
+      else
+        entry.rests = rest.steps(room, far);
+      if (entry.projected() && by.several_sheets(slave, found, norm(found.offset) + 2 * far))
         entry.near = near_several_sheets;
       if (!writes) return;
       contact.tracked(s) = found.segment;
@@ -56,9 +78,9 @@ struct FindNearNodes {
         contact.gap(s) = beside ? beside_surface : found.gap;
       } else if (first) {
         contact.gap(s) = found.gap;
-      } else if (!was_near) {
-        // The node was far, so no step has projected it since the last check: its depth must show whether it came
-        // through the surface. FirstTouch judges nodes that were near, in the step in which they touch.
+      } else if (!was_projected) {
+        // No step has projected the node since the last check: its depth must show whether it came through the surface.
+        // FirstTouch judges nodes that were projected, in the step in which they touch.
         const bool through = -found.gap <= far;
         contact.gap(s) = through ? found.gap : turned_away;
         if (through) Kokkos::atomic_add(&missed(0), 1);
@@ -67,7 +89,7 @@ struct FindNearNodes {
     if (!writes) return;
     window.entries(i) = entry;
     if (entry.near == 0) return;
-    window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
+    if (entry.rests == 0) window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
     constexpr double rounding = 1e-9;
     if (counted.extent(0) != 0 && contact.segment_stiffness(contact.tracked(s)) > (1 + rounding) * counted(s))
       Kokkos::atomic_add(&uncounted(0), 1);
@@ -79,6 +101,16 @@ struct FindNearNodes {
     double speed = 0;
     for (int k = 0; k < 4; ++k) speed = std::fmax(speed, norm(search.at_corner(velocity, master.node[k])));
     return 1.25 * interval * (speed + norm(row(velocity, node))) + sudden;
+  }
+};
+
+/// Looks at nodes that have rested long enough, between two checks.
+struct WakeNodes {
+  FindNearNodes find;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int rests = find.window.entries(i).rests;
+    if (rests > 0 && rests <= find.rest.since) find.item(find.search, i, true);
   }
 };
 

@@ -128,6 +128,45 @@ TEST_CASE("a check of the window that comes too late for a body set in motion at
   CHECK(lines[0].find("steps late") != std::string::npos);
 }
 
+TEST_CASE("near nodes that rest between two checks are looked at before they can touch") {
+  if (on_device) SKIP("on a GPU no node rests");
+  // Half a millimetre is near, and far enough to rest; a body comes down on it as fast as waves of small strain.
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 5e-4;
+  scene::Scene scene = blocks.scene(3e-4);
+  add_motion(scene, {"upper"}, {30, 5, -4}, {0, 200, 100});
+  check_window_is_unseen(scene);
+
+  Model model;
+  build_model(scene, model);
+  set_initial_motion(model, model.nodes, model.beams);
+  const ContactPair& pair = model.contacts[0];
+  int rested = 0, touched = 0;
+  march(model, model.step_count, [&] {
+    const auto entries = to_host(pair.window.entries);
+    for (int i = 0; i < pair.window.count; ++i) rested += entries(i).rests > 0;
+    touched += contact_totals(model, model.contacts, 0).nodes_in_contact;
+  });
+  CHECK(rested > 0);
+  CHECK(touched > 0);
+  CHECK(late_contacts(model.contacts).empty());
+}
+
+TEST_CASE("a shock that meets near nodes while they rest makes them late, not lost") {
+  if (on_device) SKIP("on a GPU no node rests");
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 5e-4;
+  scene::Scene scene = blocks.scene(1e-3);
+  Model model;
+  build_model(scene, model);
+  march(model, 4, [] {});
+  set_velocity(model, [&](const Vec3& x, int) { return Vec3{0, 0, x[2] > 1e-4 ? -60.0 : 0}; });
+  int touched = 0;
+  march(model, 60, [&] { touched += contact_totals(model, model.contacts, 0).nodes_in_contact; });
+  CHECK(touched > 0);
+  for (const std::string& line : late_contacts(model.contacts)) CHECK(line.find("steps late") != std::string::npos);
+}
+
 TEST_CASE("launches over a contact's window keep their size while its nodes come and go") {
   ContactWindow window;
   window.resize(1000);

@@ -244,7 +244,7 @@ void add_motion(const NodalState& nodal, const Ties& ties, NodesAround of_slave,
   add(std::move(of_master), first_of_master, master);
 }
 
-/// Present gap of the far nodes in the window: a step projects the near ones only.
+/// Present gap of the nodes in the window that a step doesn't project.
 struct PresentGap {
   ContactSearch search;
   ContactWindow window;
@@ -254,7 +254,7 @@ struct PresentGap {
   template <class Search>
   KOKKOS_INLINE_FUNCTION void item(const Search& by, const int i, bool writes) const {
     const WindowEntry entry = window.entries(i);
-    if (entry.near != 0) return;
+    if (entry.projected()) return;
     const int s = entry.slave;
     if (search.contact.gap(s) == turned_away) return;
     const Projection found = by.locate(row(search.position, entry.node), search.contact.tracked(s));

@@ -60,9 +60,8 @@ AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, do
 
 template <class Phase, class Pairs>
 void launch(const ExecutionSpace& space, const char* name, const Pairs& pairs) {
-  // How many nodes can touch is known on the device only.
   int slaves = 0;
-  for (const auto& pair : pairs.pairs) slaves += pair.window.bound();
+  for (const auto& pair : pairs.pairs) slaves += pair.window.launched();
   using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
   Kokkos::parallel_for(name, Policy(space, 0, slaves), pairs);
 }
@@ -83,8 +82,9 @@ void run_phase(const ExecutionSpace& space, const char* name, const std::vector<
         pairs[k]);
 }
 
-/// Nodes that the multipliers of all pairs can push, at most.
+/// Nodes that the multipliers of all pairs can push, at most; on a processor those that they push.
 int most_listed(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
+  if constexpr (!on_device) return nodal.free_nodes.listed_count(0);
   long most = 0;
   for (const ContactPair& pair : contacts)
     if (!pair.has_springs()) most += static_cast<long>(pair.multipliers.most_nodes) * pair.window.bound();

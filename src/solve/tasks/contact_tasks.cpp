@@ -16,7 +16,7 @@ Task search_task(const scene::Scene& scene, const NodalState& nodal, ContactPair
 
 template <bool Friction, class Normals, class Law>
 void launch_springs(const NodalState& nodal, const ContactPair& pair, const Instant& instant, const Law& law) {
-  Kokkos::parallel_for("contact_force", SpreadRange(instant.space(), 0, pair.window.bound()),
+  Kokkos::parallel_for("contact_force", SpreadRange(instant.space(), 0, pair.window.launched()),
                        contact_force<Friction, Normals>(nodal, pair, instant, law, pair.law.state));
 }
 

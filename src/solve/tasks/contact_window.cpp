@@ -191,9 +191,12 @@ void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
   const CellGrid grid(masters, reach);
 
   std::vector<WindowEntry> entries;
-  std::vector<int> near(contact.slave_count, 1);
+  std::vector<int> near(contact.slave_count, 1), rests(contact.slave_count, 0);
   const auto before = to_host(pair.window.entries);
-  for (int i = 0; i < pair.window.count; ++i) near[before(i).slave] = before(i).near;
+  for (int i = 0; i < pair.window.count; ++i) {
+    near[before(i).slave] = before(i).near;
+    rests[before(i).slave] = before(i).rests;
+  }
   const auto tracked = to_host(contact.tracked);
   std::vector<int> nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
   for (int s = 0; s < contact.slave_count; ++s) {
@@ -201,7 +204,7 @@ void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
     // A node that is tracked already needs no place to begin at.
     const int found = grid.near({slaves(s, 0), slaves(s, 1), slaves(s, 2)}, tracked(s) >= 0);
     if (found < 0) continue;
-    entries.push_back({s, pair.slave_nodes[s], near[s], 0});
+    entries.push_back({s, pair.slave_nodes[s], near[s], rests[s]});
     nearest[s] = found;
     inside[s] = 1;
   }
@@ -231,6 +234,23 @@ bool renew_window(const NodalState& nodal, ContactPair& pair, double step, doubl
   return anew;
 }
 
+/// Whether near nodes rest. On a GPU they don't: it looks at as many as there are in the time that the slowest takes.
+constexpr bool near_nodes_rest = !on_device;
+
+/// Nodes that rest are projected from now on.
+void end_rests(ContactWindow& window) {
+  const auto entries = to_host(window.entries);
+  const auto near = to_host(window.near), near_count = to_host(window.near_count);
+  for (int i = 0; i < window.count; ++i) {
+    if (entries(i).rests == 0) continue;
+    entries(i).rests = 0;
+    near(near_count(0)++) = i;
+  }
+  copy_in_order(window.entries, entries);
+  copy_in_order(window.near, near);
+  copy_in_order(window.near_count, near_count);
+}
+
 /// In the default space, after what has been launched in another and before what will be.
 bool renew_window_between(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step,
                           double sudden) {
@@ -255,31 +275,43 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
                  StepKind kind) {
   const double step = instant.step;
   const ExecutionSpace space = instant.space();
-  const bool settling = kind == StepKind::settling;
+  const bool settling = kind == StepKind::settling, rest = near_nodes_rest && !settling;
   const bool check = nodal.step >= pair.next_check;
   const bool near_check = check || nodal.step >= pair.next_near_check;
-  if (!near_check && pair.boxed) return;
+  const long since = near_check ? 0 : nodal.step - pair.near_checked_at;
+  const bool wake = rest && !near_check && since % NearRest::span == 0;
+  if (!near_check && !wake && pair.boxed) return;
   const double sudden = sudden_motion(scene, pair, step, kind);
   const bool counts = pair.counts_springs();
   const long steps = settling ? steps_between_near_checks_settling : ContactPair::steps_between_near_checks,
-             ahead = counts ? steps + ContactPair::steps_to_answer : steps;
+             ahead =
+                 (near_check ? steps : pair.next_near_check - nodal.step) + (counts ? ContactPair::steps_to_answer : 0);
   const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;
   const bool first = pair.layouts == 0 || settling;
   const bool laid_out = check && renew_window_between(space, nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
-  update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then);
+  if (near_check || !pair.boxed) update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then);
+  FindNearNodes find{search, pair.window,       nodal.nodes.velocity, interval, sudden_until_then,
+                     first,  first || laid_out, pair.missed,          {},       pair.uncounted,
+                     {}};
+  if (rest) find.rest = {static_cast<int>(since), static_cast<double>(ahead) / NearRest::span};
+  if (!near_check) {
+    // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
+    if (!pair.boxed) end_rests(pair.window);
+    pair.boxed = true;
+    if constexpr (near_nodes_rest)
+      if (wake) Kokkos::parallel_for("wake_nodes", SpreadRange(space, 0, pair.window.count), WakeNodes{find});
+    return;
+  }
   pair.boxed = true;
-  // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
-  if (!near_check) return;
   // At multiples, as what else is due every so many steps: so graphs of steps are cut in fewer places.
   pair.next_near_check = nodal.step - nodal.step % steps + steps;
   pair.answer_due = pair.answer_of(nodal.step);
   pair.near_checked_at = nodal.step;
   Kokkos::deep_copy(space, pair.window.near_count, 0);
   if (counts) Kokkos::deep_copy(space, pair.uncounted, 0);
-  search_parallel_for(space, "near_nodes", pair.window.count,
-                      FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
-                                    first || laid_out, pair.missed, pair.counted, pair.uncounted});
+  find.counted = pair.counted;
+  search_parallel_for(space, "near_nodes", pair.window.count, find);
   if (!counts) return;
   Kokkos::deep_copy(space, pair.uncounted_sent, pair.uncounted);
   pair.uncounted_arrives.put(space);

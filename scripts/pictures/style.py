@@ -26,6 +26,7 @@ SETTINGS = {
     "lines.linewidth": 1.2,
     "image.cmap": SIZE_MAP,
     "figure.facecolor": "white",
+    "text.parse_math": False,  # a title may say what something costs in $
     "pdf.fonttype": 42,  # text stays text
     "svg.fonttype": "none",
     "svg.hashsalt": "railwave",  # the same picture, the same file

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,9 @@ namespace railwave {
 
 /// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
 /// aren't.
+/// Between the place and the bytes that are free there, where the disk is too small for what a run will write.
+inline constexpr const char* disk_too_small = " before compression, but ";
+
 struct ResultsSize {
   double field_outputs = 0, samples = 0;      ///< how many of each
   double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed
@@ -25,6 +29,12 @@ class ResultsFile : public RunObserver, public Checkpoints {
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the
   /// run's long preparations. Whether files can be made is HeldPlaces' matter.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
+
+  /// Before the run begins: other runs of this process are not to end because this one's results cannot be written. Its
+  /// own loop sees that at its next output.
+  void fail_alone() {
+    stop_loops_ = [] {};
+  }
 
   ResultsSize size(const AssembledScene& assembled, const StepSizes& sizes) const;
 
@@ -52,6 +62,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   void writing(const Do& one);
   OutputChoice choice_of(const DueFields& due) const;
 
+  std::function<void()> stop_loops_;  ///< all of this process, when writing fails
   std::optional<CheckpointFile> checkpoint_;
   bool keeps_end_ = false;
   std::optional<ResultsSoFar> so_far_;

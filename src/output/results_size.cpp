@@ -139,14 +139,14 @@ void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene
                              : scene.output_windows.empty() ? "field_interval"
                                                             : "field_interval and interval of [output_windows]";
   throw InputError(fmt::format(
-      "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, "
+      "{}: [output] {} makes {:.3g} {} of {} each: {}{}{} has {} free; give a longer {}, {}, "
       "end the run (time.end = {:.4g} s) earlier, "
       "see whether the step is as long as it should be, or name a file on a larger disk",
       scene.path, fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples,
       fields ? "outputs of fields" : "samples of histories",
       fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples),
-      bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available), longer,
-      fields ? "fewer field_sets or fields" : "fewer history_sets", scene.time.end));
+      bytes_text(fields ? size.field_bytes : size.history_bytes), disk_too_small, scene.output.file,
+      bytes_text(available), longer, fields ? "fewer field_sets or fields" : "fewer history_sets", scene.time.end));
 }
 
 double free_bytes_at(const std::string& path) {

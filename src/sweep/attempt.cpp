@@ -1,5 +1,7 @@
 #include "sweep/attempt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -10,7 +12,10 @@
 
 #include "case/error.hpp"
 #include "output/file_kind.hpp"
+#include "output/hdf5/hdf5.hpp"
+#include "output/results_file.hpp"
 #include "post/results_reader.hpp"
+#include "sweep/member_inputs.hpp"
 
 namespace railwave::sweep {
 namespace {
@@ -33,6 +38,15 @@ std::string one_line(const std::string& text) {
   return line.size() > longest ? line.substr(0, longest) + "..." : line;
 }
 
+constexpr int damaged = 4;  ///< how collect_row() ends where results cannot be read
+
+void expect_whole_results(const std::string& path) try {
+  hdf5::File::open(path).root().check_last();
+} catch (const std::exception& error) {
+  std::cerr << "railwave: " << error.what() << std::endl;
+  _exit(damaged);
+}
+
 /// In a process of its own: reads what the run wrote and writes the row.
 int collect_row(const Study& study, const Member& member) {
   hdf5::limit_calls(patience);
@@ -40,6 +54,7 @@ int collect_row(const Study& study, const Member& member) {
   MemberRow row;
   row.figures_key = study.figures.key();
   if (study.figures.need_run()) {
+    expect_whole_results(files.results());
     const ResultsReader results(files.results());
     if (!results.completed()) {
       row.status = Status::broke_down;
@@ -122,16 +137,17 @@ void Attempt::start(Stage stage) {
 }
 
 void Attempt::start_run() {
+  ran_ = true;
   std::vector<std::string> words{"run", study_.case_file};
   for (const std::string& one : member_.overrides) words.insert(words.end(), {"--set", one});
-  words.insert(words.end(), {"--set", "output.file=\"" + files_.results() + '"'});
-  words.insert(words.end(), {"--set", "checkpoint.file=\"" + files_.folder + "/results.checkpoint.h5\""});
+  const std::string checkpoint = files_.folder + "/results.checkpoint.h5";
+  words.insert(words.end(), {"--set", "output.file=" + quoted(files_.results())});
+  words.insert(words.end(), {"--set", "checkpoint.file=" + quoted(checkpoint)});
   if (member_.settles) {
     // What was interrupted amid settling must not be where another settles on from: its numbers would be others.
     words.insert(words.end(), {"--set", "settle.keep_unsettled=false"});
-    words.insert(words.end(), {"--set", "settle.cache_folder=\"" + study_.folder + "/settled\""});
+    words.insert(words.end(), {"--set", "settle.cache_folder=" + quoted(study_.folder + "/settled")});
   }
-  const std::string checkpoint = files_.folder + "/results.checkpoint.h5";
   restarted_ = !afresh_ && is_there(files_.results()) && (is_there(checkpoint) || is_there(checkpoint + ".previous"));
   words.push_back(restarted_ ? "--restart" : "--overwrite");
   process_ = start_program(words, {files_.log(), threads_, lock_.descriptor()});
@@ -169,7 +185,18 @@ Attempt::Result Attempt::again(const std::string& reason) {
   return Result::again;
 }
 
+/// What the run made is of nobody knows which case, but somebody's work: it is kept under another name.
+Attempt::Result Attempt::of_other_inputs() {
+  std::error_code ignored;
+  if (ran_) fs::rename(files_.results(), files_.folder + "/of_a_changed_case.h5", ignored);
+  remove_leftovers(files_);
+  reason_ = inputs_changed;
+  note_attempt(member_, "failed: " + reason_);
+  return Result::failed;
+}
+
 Attempt::Result Attempt::run_ended(const ChildEnd& end) {
+  if (inputs_have_changed(study_, member_)) return of_other_inputs();
   if (end.code == done) {
     note_attempt(member_, stage_ == Stage::run ? "the run came to its end" : "the frequencies were found");
     start(after(stage_));
@@ -181,7 +208,8 @@ Attempt::Result Attempt::run_ended(const ChildEnd& end) {
     start(Stage::run);
     return Result::goes_on;
   }
-  if (end.code == wrong_input) return write_final_row(Status::refused, said_last());
+  if (end.code == wrong_input && said_last().find(disk_too_small) == std::string::npos)
+    return write_final_row(Status::refused, said_last());
   if (end.code == broken_down && is_there(files_.results())) {
     note_attempt(member_, "the run broke down");
     start(Stage::figures);
@@ -194,6 +222,12 @@ Attempt::Result Attempt::run_ended(const ChildEnd& end) {
 }
 
 Attempt::Result Attempt::figures_ended(const ChildEnd& end) {
+  if (end.code == damaged && !ran_) {
+    note_attempt(member_, "its results cannot be read, it runs again: " + said_last());
+    afresh_ = true;
+    start(Stage::run);
+    return Result::goes_on;
+  }
   const auto row = read_row(member_);
   if (end.code != done || !row) {
     reason_ = said_last();

@@ -10,6 +10,10 @@
 
 namespace railwave::sweep {
 
+/// Why a member is left to the next sweep.
+inline constexpr const char* inputs_changed =
+    "the case or a file that it names was changed after the sweep had begun; sweep again";
+
 /// One try to bring a member to its row: the run, its natural frequencies, then the figures, each a process of its own,
 /// as far as they are needed and not there yet.
 class Attempt {
@@ -41,6 +45,7 @@ class Attempt {
   bool run_is_complete() const;
   Result run_ended(const ChildEnd& end);
   Result figures_ended(const ChildEnd& end);
+  Result of_other_inputs();
   Result write_final_row(Status status, const std::string& reason);
   Result again(const std::string& reason);
   std::string said_last() const;
@@ -51,7 +56,7 @@ class Attempt {
   MemberLock lock_;
   int threads_;
   Stage stage_ = Stage::done;
-  bool afresh_ = false, restarted_ = false, wanted_memory_ = false;
+  bool afresh_ = false, restarted_ = false, ran_ = false, wanted_memory_ = false;
   long log_begins_ = 0;  ///< where the log of the present process begins
   pid_t process_ = 0;
   std::string reason_;

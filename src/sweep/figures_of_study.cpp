@@ -40,6 +40,9 @@ void read_figure(const Node& node, FigureChoice& choice, Complaints& complaints)
   const std::string subject = "[figures] " + printable(node.name);
   if (node.name.empty() || node.name.find_first_not_of(letters) != std::string::npos)
     complaints.add(node.where, subject + ": the name may only have letters a-z, digits, '_' and '-'");
+  for (const char* column : {"status", "reason"})
+    if (node.name == column)
+      complaints.add(node.where, subject + ": the table has a column of that name; choose another");
   const Node* source = node.type == Type::table ? node.find("of") : &node;
   if (!source || source->type != Type::text)
     return complaints.add(node.where, subject +

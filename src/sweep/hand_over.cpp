@@ -10,6 +10,7 @@
 
 #include "case/error.hpp"
 #include "output/atomic_file.hpp"
+#include "output/hash.hpp"
 #include "sweep/member_row.hpp"
 #include "sweep/sweep_command.hpp"
 
@@ -54,8 +55,8 @@ Calls calls_of(const Study& study) {
 
 std::string slurm_heading(const Study& study, const Calls& calls, const std::string& name, const std::string& output) {
   std::string text = fmt::format("#!/bin/bash\n{} {} of {}\n", script_mark, name, calls.study);
-  text += fmt::format("#SBATCH --job-name={}-{}\n#SBATCH --output=\"{}/{}\"\n", fs::path(study.path).stem().string(),
-                      name, calls.folder, output);
+  text += fmt::format("#SBATCH --job-name=\"{}-{}\"\n#SBATCH --output=\"{}/{}\"\n",
+                      fs::path(study.path).stem().string(), name, calls.folder, output);
   for (const std::string& option : study.slurm.options) text += "#SBATCH " + option + '\n';
   return text;
 }
@@ -84,6 +85,8 @@ std::string snakefile(const Study& study, const Calls& calls) {
     text += fmt::format("    {}: {},\n", python_text(fs::path(member.folder).filename().string()), member.number);
     memory = std::max(memory, member.memory);
   }
+  Hash figures;
+  figures.add(study.figures.key());
   constexpr double megabyte = 1e6;
   text += fmt::format(
       R"(}}
@@ -106,6 +109,7 @@ rule member:
         "members/{{name}}/row.toml",
     params:
         number=lambda wildcards: NUMBERS[wildcards.name],
+        figures={figures},  # a rule runs again when others are asked for
     threads: 1
     resources:
         mem_mb={memory:.0f},
@@ -113,7 +117,8 @@ rule member:
         # 3: it broke down, which its row says
         {member}
 )",
-      fmt::arg("folder", python_text(calls.folder)), fmt::arg("memory", memory / megabyte),
+      fmt::arg("folder", python_text(calls.folder)), fmt::arg("figures", python_text(figures.text())),
+      fmt::arg("memory", memory / megabyte),
       fmt::arg("collect", python_text("cd " + shell_word(calls.here) + " && " + calls.sweep() + " --collect")),
       fmt::arg("member", python_text("cd " + shell_word(calls.here) + " && (" + calls.sweep() +
                                      " --members {params.number} --jobs 1 --threads {threads} || [ $? "

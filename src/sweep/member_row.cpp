@@ -28,13 +28,6 @@ constexpr int statuses = sizeof status_names / sizeof *status_names;
 
 FileKind row_kind() { return {FileKind::Form::text, "the row of a member of a sweep", row_mark, ""}; }
 
-std::string quoted(const std::string& text) {
-  Node node;
-  node.type = Node::Type::text;
-  node.text = text;
-  return toml_text(node);
-}
-
 double number_of(const Node* node) {
   return node && node->is_number() ? node->number : std::numeric_limits<double>::quiet_NaN();
 }
@@ -42,6 +35,13 @@ double number_of(const Node* node) {
 std::string text_of(const Node* node) { return node ? node->text : ""; }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  Node node;
+  node.type = Node::Type::text;
+  node.text = text;
+  return toml_text(node);
+}
 
 void write_row(const Member& member, const MemberRow& row) {
   std::string text = std::string(row_mark) + '\n';
@@ -83,7 +83,14 @@ std::optional<MemberRow> read_row(const Member& member) try {
 
 bool is_done(const Study& study, const Member& member) {
   const auto row = read_row(member);
-  return row && (row->status != Status::completed || row->figures_key == study.figures.key());
+  return row && (row->status == Status::broke_down || row->figures_key == study.figures.key());
+}
+
+std::string in_the_way_of_row(const Member& member) {
+  const std::string path = MemberFiles(member).row();
+  std::error_code failed;
+  if (!std::filesystem::exists(path, failed) || is_of_kind(path, row_kind())) return {};
+  return fmt::format("{} is {}, not the row of a member; move it away", path, seems_to_be(path));
 }
 
 void note_attempt(const Member& member, const std::string& what) {

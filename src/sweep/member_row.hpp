@@ -36,14 +36,21 @@ struct MemberFiles {
   std::string lock() const { return folder + "/member.lock"; }
 };
 
+/// A text as TOML has it.
+std::string quoted(const std::string& text);
+
 /// Writes the row, whole or not at all, and brings it to the disk.
 void write_row(const Member& member, const MemberRow& row);
 
 /// The row of a member that has ended; nothing: it has none, or a damaged one, which counts as none.
 std::optional<MemberRow> read_row(const Member& member);
 
-/// Whether nothing remains to be done: it has its row, and of a member that completed that has the study's figures.
+/// Whether nothing remains to be done: it has its row, and that is of the study's figures, unless the run itself broke
+/// down.
 bool is_done(const Study& study, const Member& member);
+
+/// What is in the way where the member's row is to be: a file that is none; empty: nothing is.
+std::string in_the_way_of_row(const Member& member);
 
 /// Adds a line to the member's attempts: when, where, and what happened.
 void note_attempt(const Member& member, const std::string& what);

@@ -153,6 +153,10 @@ void read_table(const Node& table, const std::string& path, MemberSources& sourc
                                             complaints))
           overrides.push_back({key, value, origin});
       }
+      if (overrides.empty())
+        complaints.add(table.where, fmt::format("table: {}: the line has no value; leave it out, or write one that the "
+                                                "case has",
+                                                place(file, row.line)));
       sources.rows.push_back(overrides);
     }
     if (rows.size() == 1) complaints.add(table.where, "table: " + table.text + " has a heading and no row");

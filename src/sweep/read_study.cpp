@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -12,8 +10,8 @@
 #include "case/read_case.hpp"
 #include "case/suggest.hpp"
 #include "mesh/mesh_memory.hpp"
-#include "output/hash.hpp"
 #include "output/run_places.hpp"
+#include "sweep/member_inputs.hpp"
 #include "sweep/overrides_of_members.hpp"
 #include "sweep/study.hpp"
 
@@ -81,7 +79,7 @@ void refuse_own_keys(const std::vector<Overrides>& entries, Complaints& complain
 /// Without ending; the folder of the results of a case of that name would be the same.
 std::string usual_folder(const std::string& study_path) { return default_results_folder(study_path); }
 
-/// What the case itself says; a text without letters where it says nothing.
+/// What a case says; a text without letters where it says nothing.
 Node value_in_case(const Node& root, const std::string& key) {
   Node nothing;
   nothing.type = Type::text;
@@ -131,41 +129,6 @@ std::string folder_name(const std::string& text) {
   return name.substr(0, longest);
 }
 
-/// Of a case with overrides: all that its results depend on.
-class MemberHash {
- public:
-  explicit MemberHash(const Node& root) : root_(root) {}
-
-  std::string of(const scene::Scene& scene, const std::vector<std::string>& overrides) {
-    Complaints none(scene.path), remarks(scene.path);
-    Node root = root_;
-    case_file::apply_overrides(overrides, root, none, remarks);
-    Hash hash;
-    hash.add("Railwave sweep member 1");
-    hash.add(RAILWAVE_VERSION);
-    hash.add(case_file::whole_text(root));
-    for (const InputFile& file : input_files(scene))
-      if (file.path != scene.path) hash.add(of_file(file.path));
-    return hash.text();
-  }
-
- private:
-  const std::string& of_file(const std::string& path) {
-    std::string& known = files_[path];
-    if (known.empty()) {
-      std::ifstream file(path, std::ios::binary);
-      const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-      Hash hash;
-      hash.add_words(bytes.data(), bytes.size());
-      known = hash.text();
-    }
-    return known;
-  }
-
-  Node root_;
-  std::map<std::string, std::string> files_;
-};
-
 void make_members(const Node& study, Study& result, Complaints& complaints) {
   const MemberSources sources = read_member_sources(study, result.path, complaints);
   Overrides common;
@@ -178,21 +141,19 @@ void make_members(const Node& study, Study& result, Complaints& complaints) {
   const case_file::Document document = case_file::parse_document(case_file::load_text(result.case_file), of_case);
   of_case.throw_if_any();
   for (const std::string& key : keys_of(sources)) result.parameters.push_back({key, unit_of_key(key)});
-  MemberHash hash(document.root);
+  MemberHash hash;
   std::map<std::string, int> numbers;
   for (const Overrides& own : combinations(sources, most_members)) {
     Member member;
     member.number = static_cast<int>(result.members.size()) + 1;
     std::vector<std::string> origins;
-    for (const Parameter& parameter : result.parameters)
-      member.values.push_back(value_in_case(document.root, parameter.key));
     for (const Overrides* all : {static_cast<const Overrides*>(&common), &own})
       for (const Override& one : *all) {
         member.overrides.push_back(one.key + '=' + case_file::toml_text(one.value));
         origins.push_back(one.origin);
-        for (std::size_t p = 0; p < result.parameters.size(); ++p)
-          if (result.parameters[p].key == one.key) member.values[p] = one.value;
       }
+    const Node root = with_overrides(document.root, member.overrides);
+    for (const Parameter& parameter : result.parameters) member.values.push_back(value_in_case(root, parameter.key));
     member.called = called(result.parameters, member.values);
     scene::Scene scene;
     try {
@@ -207,11 +168,14 @@ void make_members(const Node& study, Study& result, Complaints& complaints) {
     complaints.throw_if_any();
     member.memory = bytes_of_program + bytes_of_element * expected_elements(scene);
     member.settles = scene.settle.active;
-    const std::string name = hash.of(scene, member.overrides);
-    if (const auto [twin, is_new] = numbers.emplace(name, member.number); !is_new)
+    for (const InputFile& file : input_files(scene))
+      if (file.path != scene.path) member.files.push_back(file.path);
+    member.hash = hash.of(root, member.files);
+    if (const auto [twin, is_new] = numbers.emplace(member.hash, member.number); !is_new)
       throw InputError(fmt::format("{}: members {} and {} are the same case ({}); leave one of them out", result.path,
                                    twin->second, member.number, member.called));
-    member.folder = fmt::format("{}/members/{}-{}", result.folder, folder_name(member.called), name.substr(0, 12));
+    member.folder =
+        fmt::format("{}/members/{}-{}", result.folder, folder_name(member.called), member.hash.substr(0, 12));
     if (result.figures.figures.empty()) {
       std::vector<std::string> contacts;
       for (const auto& contact : scene.contacts) contacts.push_back(contact.name);

@@ -14,6 +14,7 @@
 #include "case/error.hpp"
 #include "case/memory.hpp"
 #include "sweep/attempt.hpp"
+#include "sweep/member_inputs.hpp"
 
 namespace railwave::sweep {
 namespace {
@@ -68,7 +69,7 @@ class SideBySide {
     }
   }
 
-  void start(const Member& member, int threads) {
+  void start(const Member& member, int threads) try {
     std::filesystem::create_directories(member.folder);
     auto lock = MemberLock::take(MemberFiles(member).lock());
     if (!lock) {
@@ -81,9 +82,27 @@ class SideBySide {
       ++done_;
       return;
     }
+    if (inputs_have_changed(study_, member)) return leave(member, inputs_changed);
+    if (const std::string other = in_the_way_of_row(member); !other.empty()) return leave(member, other);
     running_.emplace_back(study_, member, std::move(*lock), threads);
     ++attempts_[member.number];
     running_.back().begin();
+  } catch (const std::exception& error) {  // of the system, about the member's folder
+    if (!running_.empty() && &running_.back().member() == &member && running_.back().process() == 0)
+      running_.pop_back();
+    report(member, error.what(), 0);
+  }
+
+  /// To the next sweep.
+  void leave(const Member& member, const std::string& why) {
+    note_attempt(member, "failed: " + why);
+    report(member, why, 0);
+  }
+
+  void report(const Member& member, const std::string& what, double seconds) {
+    out_ << fmt::format("[{}/{}] member {} ({}): {}, {:.1f} s\n", done_, all_, member.number, member.called, what,
+                        seconds)
+         << std::flush;
   }
 
   /// Members that another sweep of this study had: it may have ended, or been killed.
@@ -112,9 +131,7 @@ class SideBySide {
     std::string what = found->reason();
     if (result == Attempt::Result::row_written && what.empty()) what = "completed";
     if (may_again && !stopping) what += "; it runs again";
-    out_ << fmt::format("[{}/{}] member {} ({}): {}, {:.1f} s\n", done_, all_, member.number, member.called, what,
-                        found->seconds())
-         << std::flush;
+    report(member, what, found->seconds());
     const bool alone = found->wanted_memory();
     running_.erase(found);
     if (may_again && !stopping) (alone ? again_ : waiting_).push_back(&member);
@@ -183,8 +200,14 @@ Sharing share_processors(int processors, std::size_t members, const RunOptions& 
 
 Tally run_members(const Study& study, const std::vector<const Member*>& members, const RunOptions& options,
                   std::ostream& out) {
+  const bool stopped = SideBySide(study, members, options, out).run();
+  Tally tally = tally_of(study, members);
+  tally.stopped = stopped;
+  return tally;
+}
+
+Tally tally_of(const Study& study, const std::vector<const Member*>& members) {
   Tally tally;
-  tally.stopped = SideBySide(study, members, options, out).run();
   for (const Member* member : members) {
     const auto row = read_row(*member);
     const bool done = is_done(study, *member);

@@ -21,6 +21,9 @@ struct Tally {
   bool stopped = false;
 };
 
+/// How they stand now.
+Tally tally_of(const Study& study, const std::vector<const Member*>& members);
+
 /// Runs those of the members that have no row yet, each until it has one or was killed once more than `retries`. What
 /// one of them does is of no consequence for the others. This is the place that decides how members run: here each is a
 /// process of its own, several side by side (run_side_by_side()). Members that can share a process, as on a GPU, are to

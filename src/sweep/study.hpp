@@ -27,6 +27,8 @@ struct Member {
   std::vector<case_file::Node> values;  ///< of the study's parameters; a text without letters where nobody says one
   std::string called;                   ///< "friction=0.3, position[1]=0.01"
   std::string folder;                   ///< its own, below the study's
+  std::vector<std::string> files;       ///< that its case names
+  std::string hash;                     ///< of all that its results depend on, see MemberHash
   double memory = 0;                    ///< bytes that a run of it takes, estimated
   bool settles = false;
 };
@@ -61,6 +63,10 @@ std::vector<const Member*> chosen_members(const Study& study, const std::string&
 /// Every `count`-th member, from the `index`-th on (from 1): a job's share, so that neighbours, which take alike long,
 /// are of different jobs. Throws InputError unless 1 <= index <= count.
 std::vector<const Member*> share_of_job(const Study& study, int index, int count);
+
+/// Throws InputError where a sweep of the study must not write its tables: something else has their names, or another
+/// study's table is there. Changes no file.
+void check_tables(const Study& study);
 
 /// Writes sweep.csv and sweep.h5 of a study: a row for each member, whether it has ended or not, with its parameters,
 /// how it ended, and its figures. The rows are read from the members' folders, so it does not matter which process,

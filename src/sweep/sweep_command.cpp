@@ -77,8 +77,11 @@ int sweep_command(const SweepRequest& request, const std::function<bool()>& stop
   const Study study = read_study(request.study);
   if (request.slurm && (request.snakemake || request.members || request.job || request.collect))
     throw InputError("--slurm hands the whole study over: leave out --snakemake, --members, --job and --collect");
+  if (request.collect && (request.members || request.job))
+    throw InputError("--collect writes the table of the whole study and runs nothing: leave out --members and --job");
   const std::vector<const Member*> members = wanted_members(study, request);
   if (!request.collect) expect_histories(study, members);
+  if (!request.dry_run) check_tables(study);
   if (request.slurm) return hand_over_to_slurm(study, *request.slurm, request.dry_run, out);
   if (request.snakemake) return hand_over_to_snakemake(study, request.dry_run, out);
   if (request.dry_run) {
@@ -91,14 +94,15 @@ int sweep_command(const SweepRequest& request, const std::function<bool()>& stop
   options.retries = request.retries.value_or(study.retries);
   options.stopped = stopped;
   const bool all = members.size() == study.members.size();
-  const Tally tally = run_members(study, request.collect ? std::vector<const Member*>{} : members, options, out);
+  const Tally tally = request.collect ? tally_of(study, members) : run_members(study, members, options, out);
   if (all) {
     write_tables(study);
     out << fmt::format("{} and {}: {} members, {} figures\n", study.table_csv(), study.table_hdf5(),
                        study.members.size(), study.figures.figures.size());
     if (request.pictures && !tally.stopped) pictures(study.table_hdf5());
   }
-  return request.collect ? done : report(study, tally, out);
+  const int code = report(study, tally, out);
+  return request.collect && code == broken_down ? done : code;  // the table is as it should be
 }
 
 }  // namespace railwave::sweep

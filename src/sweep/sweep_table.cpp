@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "case/error.hpp"
 #include "output/atomic_file.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "post/table.hpp"
@@ -16,6 +17,7 @@
 namespace railwave::sweep {
 namespace {
 
+namespace fs = std::filesystem;
 using case_file::Node;
 using Type = Node::Type;
 
@@ -26,6 +28,9 @@ FileKind csv_kind() { return {FileKind::Form::text, "the table of a sweep", csv_
 FileKind hdf5_kind() { return {FileKind::Form::hdf5, "the table of a sweep", "Railwave sweep", ""}; }
 
 std::string number_text(double value) { return std::isnan(value) ? "" : fmt::format("{:.10g}", value); }
+
+/// With as many digits as tell it from others.
+std::string parameter_text(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 /// A column of parameters: numbers, or texts where a member has another value than a number.
 struct ParameterColumn {
@@ -49,7 +54,7 @@ ParameterColumn column_of(const std::string& name, const std::string& unit, cons
   for (const Node* value : values) {
     if (numbers) {
       column.numbers.push_back(value->is_number() ? value->number : no_number);
-      column.texts.push_back(number_text(column.numbers.back()));
+      column.texts.push_back(parameter_text(column.numbers.back()));
       continue;
     }
     const std::string text = value->type == Type::text ? value->text : case_file::toml_text(*value);
@@ -62,6 +67,13 @@ ParameterColumn column_of(const std::string& name, const std::string& unit, cons
   return column;
 }
 
+/// Of several keys one may be an entry of another, which says the same.
+void add_once(ParameterColumn column, std::vector<ParameterColumn>& columns) {
+  const bool known =
+      std::any_of(columns.begin(), columns.end(), [&](const ParameterColumn& one) { return one.name == column.name; });
+  if (!known) columns.push_back(std::move(column));
+}
+
 /// A list of numbers, such as a velocity, makes a column of each entry that differs.
 void add_columns(const Study& study, std::size_t p, std::vector<ParameterColumn>& columns) {
   std::vector<const Node*> values;
@@ -70,7 +82,7 @@ void add_columns(const Study& study, std::size_t p, std::vector<ParameterColumn>
   const std::size_t length = values.front()->children.size();
   if (length == 0 ||
       !std::all_of(values.begin(), values.end(), [&](const Node* one) { return is_list_of_numbers(*one, length); })) {
-    columns.push_back(column_of(parameter.key, parameter.unit, values));
+    add_once(column_of(parameter.key, parameter.unit, values), columns);
     return;
   }
   for (std::size_t i = 0; i < length; ++i) {
@@ -78,7 +90,7 @@ void add_columns(const Study& study, std::size_t p, std::vector<ParameterColumn>
     for (const Node* value : values) entries.push_back(&value->children[i]);
     const bool differs = std::any_of(entries.begin(), entries.end(),
                                      [&](const Node* one) { return one->number != entries.front()->number; });
-    if (differs) columns.push_back(column_of(fmt::format("{}[{}]", parameter.key, i), parameter.unit, entries));
+    if (differs) add_once(column_of(fmt::format("{}[{}]", parameter.key, i), parameter.unit, entries), columns);
   }
 }
 
@@ -115,8 +127,8 @@ Contents contents_of(const Study& study) {
     contents.rows.push_back(read_row(member).value_or(unfinished(member)));
     MemberRow& row = contents.rows.back();
     if (row.status == Status::completed && row.figures_key != key) {
-      row = {};
-      row.reason = "other figures were asked for when it ran: sweep again";
+      row = unfinished(member);
+      if (row.status == Status::not_run) row.reason = "other figures were asked for when it ran: sweep again";
     }
   }
   for (const Figure& figure : study.figures.figures) {
@@ -195,10 +207,32 @@ MemberLock wait_for_lock(const std::string& path) {
   }
 }
 
+/// Throws InputError where something else has a table's name.
+void expect_no_other(const std::string& path, const FileKind& kind) {
+  std::error_code failed;
+  if (fs::exists(path, failed) && !is_of_kind(path, kind))
+    throw InputError(fmt::format("{} is {}, not the table of a sweep: move it away, or give the study another folder",
+                                 path, seems_to_be(path)));
+}
+
 }  // namespace
 
+void check_tables(const Study& study) {
+  expect_no_other(study.table_csv(), csv_kind());
+  expect_no_other(study.table_hdf5(), hdf5_kind());
+  if (!is_of_kind(study.table_hdf5(), hdf5_kind())) return;
+  const auto root = hdf5::read_root_attributes(study.table_hdf5());
+  const std::string other = root ? root->text("study") : "";
+  std::error_code failed;
+  if (other.empty() || !fs::exists(other, failed) || fs::equivalent(other, study.path, failed) || failed) return;
+  throw InputError(
+      fmt::format("{} is the table of another study, {}: give this one another folder by 'folder = ...', or move the "
+                  "tables of that one away",
+                  study.table_hdf5(), other));
+}
+
 void write_tables(const Study& study) {
-  namespace fs = std::filesystem;
+  check_tables(study);
   fs::create_directories(study.folder);
   const MemberLock lock = wait_for_lock(study.folder + "/sweep.lock");
   // One sweep at a time; what a killed one left has no name yet.

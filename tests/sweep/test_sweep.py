@@ -350,6 +350,174 @@ heat = "energy.friction"
         self.assertEqual(times_run(members(study)[0]), 1)
 
 
+class OddStudies(SweepTest):
+    """What a user does to a study, its case or its folder, and what must not come of it."""
+
+    QUICK = "[common]\ntime.end = 5e-6\noutput.field_interval = 5e-6\n"
+
+    def quick(self, text, **more):
+        return write(self.folder, self.QUICK + text + HEAT, **more)
+
+    def test_a_case_that_is_changed_while_members_run(self):
+        study = write(self.folder, Fates.LONG.replace("[0.2]", "[0.2, 0.3]"))
+        (self.folder / "out" / "members").mkdir(parents=True)
+        case = self.folder / "case.toml"
+        before = case.read_text()
+        process = subprocess.Popen(
+            [PROGRAM, "sweep", study, "--no-pictures", "--jobs", "1"], stdout=subprocess.PIPE, text=True
+        )
+        end = time.monotonic() + PATIENCE
+        while not any((member / "results.h5").exists() for member in members(study)) and time.monotonic() < end:
+            time.sleep(0.002)
+        case.write_text(before.replace("velocity = [1, 0, 0]", "velocity = [9, 0, 0]"))
+        said, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 1, said)
+        case.write_text(before)
+        self.assertEqual({row["status"] for row in rows(study)}, {"failed"})
+        self.assertIn("was changed after the sweep had begun", rows(study)[0]["reason"])
+        # What ran is of nobody knows which case: no sweep takes it for the member's.
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual({row["status"] for row in rows(study)}, {"completed"})
+        self.assertEqual(len(members(study)), 2)
+
+    def test_a_case_that_is_away_for_a_moment(self):
+        study = write(self.folder, Fates.LONG.replace("[0.2]", "[0.2, 0.3]"))
+        (self.folder / "out" / "members").mkdir(parents=True)
+        process = subprocess.Popen(
+            [PROGRAM, "sweep", study, "--no-pictures", "--jobs", "1"], stdout=subprocess.PIPE, text=True
+        )
+        end = time.monotonic() + PATIENCE
+        while not any((member / "results.h5").exists() for member in members(study)) and time.monotonic() < end:
+            time.sleep(0.002)
+        (self.folder / "case.toml").rename(self.folder / "away.toml")
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 1)
+        (self.folder / "away.toml").rename(self.folder / "case.toml")
+        self.assertEqual(sweep(study).returncode, 0)
+
+    def test_the_table_says_what_members_ran_with(self):
+        case = studies.CASE.replace("velocity = [1, 0, 0]", "velocity = [1, 0.5, 0]")
+        study = write(
+            self.folder,
+            "[common]\ntime.end = 5e-6\ninitial_motion.slide.velocity = [5, 0, 0]\n[[list]]\n"
+            '"initial_motion.slide.velocity[0]" = 2\n'
+            "[[list]]\ncontacts.between.friction = 0.30000000000000004\n" + HEAT,
+            case,
+        )
+        self.assertEqual(sweep(study).returncode, 0)
+        speed, friction = "initial_motion.slide.velocity[0] [m/s]", "contacts.between.friction"
+        self.assertEqual([row[speed] for row in rows(study)], ["2", "5"])
+        self.assertEqual(rows(study)[1][friction], "0.30000000000000004")
+
+    def test_a_list_and_one_of_its_entries(self):
+        study = self.quick(
+            "[[list]]\ninitial_motion.slide.velocity = [2, 0, 0]\n"
+            '[[list]]\n"initial_motion.slide.velocity[0]" = 4\n'
+        )
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        heading = (self.folder / "out" / "sweep.csv").read_text().splitlines()[0].split(",")
+        self.assertEqual(len(heading), len(set(heading)))
+        self.assertEqual([row["initial_motion.slide.velocity[0] [m/s]"] for row in rows(study)], ["2", "4"])
+
+    def test_damaged_results_are_made_again(self):
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2]\n")
+        self.assertEqual(sweep(study).returncode, 0)
+        member = members(study)[0]
+        heat = rows(study)[0]["heat [J]"]
+        results = (member / "results.h5").read_bytes()
+        (member / "results.h5").write_bytes(results[: len(results) // 2])
+        (member / "row.toml").unlink()
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(times_run(member), 2)
+        self.assertEqual(rows(study)[0]["heat [J]"], heat)
+
+    def test_a_figure_that_is_added_and_cannot_be_had(self):
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2]\n")
+        self.assertEqual(sweep(study).returncode, 0)
+        study.write_text(
+            study.read_text() + 'area = {of = "patch.between.area", from = 1e-6, to = 2e-6}\n'
+        )
+        self.assertEqual(sweep(study, "--collect").returncode, 1)
+        self.assertIn("sweep again", rows(study)[0]["reason"])
+        self.assertEqual(sweep(study).returncode, 1)
+        self.assertEqual(rows(study)[0]["status"], "failed")
+        self.assertIn("[figures] area", rows(study)[0]["reason"])
+
+    def test_two_studies_of_one_name(self):
+        for name in ("a", "b"):
+            (self.folder / name).mkdir()
+            study = write(self.folder / name, self.QUICK + "[grid]\ncontacts.between.friction = [0.2]\n" + HEAT)
+            lines = study.read_text().splitlines(keepends=True)
+            study.write_text("".join(line for line in lines if not line.startswith("folder")))
+            done = subprocess.run(
+                [PROGRAM, "sweep", study, "--no-pictures"], capture_output=True, text=True, cwd=self.folder
+            )
+            self.assertEqual(done.returncode, 0 if name == "a" else 2, done.stderr)
+        self.assertIn("the table of another study, " + str(self.folder / "a" / "study.toml"), done.stderr)
+
+    def test_files_in_the_way(self):
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2, 0.3, 0.4]\n")
+        out = self.folder / "out"
+        out.mkdir()
+        (out / "sweep.csv").write_text("somebody's")
+        done = sweep(study)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("move it away", done.stderr)
+        self.assertFalse((out / "members").exists(), "said before anything runs")
+        (out / "sweep.csv").unlink()
+        self.assertEqual(sweep(study).returncode, 0)
+        one, two, three = members(study)
+        for member in (one, three):
+            for path in member.iterdir():
+                path.unlink()
+        one.rmdir()
+        one.write_text("a file")
+        (three / "row.toml").write_text("somebody's")
+        done = sweep(study)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual([row["status"] for row in rows(study)], ["not run", "completed", "failed"])
+        self.assertIn("row.toml is", rows(study)[2]["reason"])
+        self.assertEqual((three / "row.toml").read_text(), "somebody's")
+        one.unlink()
+        (three / "row.toml").unlink()
+        self.assertEqual(sweep(study).returncode, 0)
+
+    def test_odd_characters(self):
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2, 0.3]\n")
+        text = study.read_text().replace('title = "blocks"', "title = 'in $, \\frac of $'")
+        study.write_text(text.replace(f'folder = "{self.folder}/out"', f"folder = '{self.folder}/a \"b\\c'"))
+        done = subprocess.run([PROGRAM, "sweep", study], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue((self.folder / 'a "b\\c' / "sweep-heat.png").exists(), done.stdout + done.stderr)
+
+    def test_scripts(self):
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2]\n")
+        study = study.rename(self.folder / "my study.toml")
+        self.assertIn('--job-name="my study-members"', sweep(study, "--slurm", "2", "--dry-run").stdout)
+        before = sweep(study, "--snakemake", "--dry-run").stdout
+        study.write_text(study.read_text() + 'speed = "upper.z_max.velocity.x"\n')
+        after = sweep(study, "--snakemake", "--dry-run").stdout
+        changed = [line for line in after.splitlines() if line not in before.splitlines()]
+        self.assertEqual([line.split("=")[0].strip() for line in changed], ["figures"])
+
+    def test_mistakes(self):
+        for text, said in (
+            ("[grid]\ncontacts.between.friction = [0.2]\n[figures]\nreason = \"energy.friction\"\n", "column"),
+            ("table = \"t.csv\"\n" + HEAT, "t.csv:3: the line has no value"),
+        ):
+            (self.folder / "t.csv").write_text("contacts.between.friction,time.end\n0.2,5e-6\n,\n")
+            table = text.startswith("table")
+            study = write(self.folder, text if table else self.QUICK + text)
+            done = sweep(study)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn(said, done.stderr)
+        study = self.quick("[grid]\ncontacts.between.friction = [0.2]\n")
+        self.assertEqual(sweep(study, "--collect", "--members", "1").returncode, 2)
+
+
 class ExampleStudies(unittest.TestCase):
     def test_each_study_of_the_project_can_be_read(self):
         files = [path for folder in ("studies", "cases") for path in (ROOT / folder).rglob("*.toml")]

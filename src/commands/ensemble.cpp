@@ -39,16 +39,17 @@ struct Member {
   std::unique_ptr<Progress> progress;
 };
 
-std::string log_path(const std::string& results) { return std::filesystem::path(results).replace_extension(".log"); }
-
 std::string results_of_member(const scene::Scene& scene, std::size_t number) {
   return fmt::format("{}/member_{}.h5", default_results_folder(scene.path), number);
 }
 
+/// With or without blanks around the key, as `run --set` takes it.
 bool names_results(const std::vector<std::string>& overrides) {
-  for (const std::string& one : overrides)
-    if (one.rfind("output.file=", 0) == 0) return true;
-  return false;
+  return std::any_of(overrides.begin(), overrides.end(), [](const std::string& one) {
+    std::string key = one.substr(0, one.find('='));
+    key.erase(std::remove_if(key.begin(), key.end(), [](char c) { return c == ' ' || c == '\t'; }), key.end());
+    return key == "output.file";
+  });
 }
 
 /// Reads a member's case.
@@ -61,7 +62,7 @@ void read_member(const EnsembleRequest& request, std::size_t m, Member& member) 
     if (!names_results(overrides)) member.scene.output.file = results_of_member(member.scene, m + 1);
     const auto bands = place_contact_zones(member.scene);
     member.notes.insert(member.notes.end(), bands.begin(), bands.end());
-    member.places = std::make_unique<HeldPlaces>(member.scene, RunFiles{false, request.overwrite});
+    member.places = std::make_unique<HeldPlaces>(member.scene, RunFiles{false, request.overwrite, true});
   } catch (const InputError& error) {
     throw InputError(fmt::format("{} of the ensemble: {}", member.name, error.what()));
   }
@@ -70,13 +71,21 @@ void read_member(const EnsembleRequest& request, std::size_t m, Member& member) 
 void build_member(Member& member) {
   try {
     build_model(member.scene, assemble(member.scene, member.notes), member.model);
-    check_run_places(member.scene, {});
+    check_run_places(member.scene, {false, false, true});
     member.results = std::make_unique<ResultsFile>(member.model.scene, member.model.assembly, RAILWAVE_VERSION);
     member.results->check_disk_space(member.model, member.model);
+    member.results->fail_alone();
   } catch (const InputError& error) {
     throw InputError(fmt::format("{} of the ensemble: {}", member.name, error.what()));
   }
-  member.log.open(log_path(member.scene.output.file));
+}
+
+/// After all members' models have been made: until then older logs stay.
+void begin_log(Member& member) {
+  const std::string path = log_path(member.scene.output.file);
+  member.log.open(path);
+  member.log << log_mark << ", whose results are " << member.scene.output.file << '\n' << std::flush;
+  if (!member.log) throw std::runtime_error(fmt::format("{}: {} cannot be written", member.name, path));
   for (const std::string& note : member.notes) member.log << "note: " << note << '\n';
   member.progress = std::make_unique<Progress>(member.log);
 }
@@ -127,20 +136,37 @@ Members read_members(const EnsembleRequest& request, std::size_t first, std::siz
   return members;
 }
 
+/// Models go before Kokkos does, also where a mistake ends all.
+class ModelsEnd {
+ public:
+  explicit ModelsEnd(const Members& members) : members_(members) {}
+  ModelsEnd(const ModelsEnd&) = delete;
+  ModelsEnd& operator=(const ModelsEnd&) = delete;
+  ~ModelsEnd() {
+    for (const auto& member : members_) {
+      member->results.reset();
+      member->model = Model{};
+    }
+  }
+
+ private:
+  const Members& members_;
+};
+
 EnsembleEnd run_members(const Members& members, std::ostream& out) {
   // On a GPU of NVIDIA, launches of different members that share one of its queues wait for each other; 8 are usual.
   setenv("CUDA_DEVICE_MAX_CONNECTIONS", "32", 0);
   const KokkosScope kokkos;
+  const ModelsEnd models_end(members);
   std::vector<EnsembleMember> runs;
   SettledFiles settled(RAILWAVE_VERSION);
+  for (const auto& member : members) build_member(*member);
   for (const auto& member : members) {
-    build_member(*member);
+    begin_log(*member);
     runs.push_back({&member->model, {member->results.get(), member->progress.get()}, &settled, {}});
   }
   stop_on_signals();
-  const EnsembleEnd end = report_ends(members, run_together(runs), out);
-  for (const auto& member : members) member->model = Model{};  // before Kokkos ends
-  return end;
+  return report_ends(members, run_together(runs), out);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ std::string text_of(const std::string& path) {
 }  // namespace
 
 ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version)
-    : path_(scene.output.file) {
+    : stop_loops_(request_stop), path_(scene.output.file) {
   description_.program_version = program_version;
   description_.title = scene.title;
   description_.case_path = scene.path;
@@ -200,7 +200,7 @@ void ResultsFile::begin(const Model& model) {
     description_.contacts[c].master_surface = surface_of(model, model.ties, pair.master_nodes, pair.master_segments);
   }
   writing([&] {
-    writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop, compression_threads());
+    writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, stop_loops_, compression_threads());
   });
 }
 

@@ -86,6 +86,11 @@ OutputPlaces places_of(const scene::Scene& scene, const RunFiles& asked) {
   if (results.empty()) return places;
   places.writes_with_companion(fault_path(results), kinds::fault(), kinds::fault_xdmf(), key,
                                "where the surroundings of a fault are written");
+  if (asked.logs) {
+    places.writes(log_path(results), {FileKind::Form::text, "the log of an ensemble's member", log_mark, ""}, key,
+                  "the log beside the results");
+    return places;
+  }
   const std::string checkpoint = checkpoint_path(scene);
   const std::string before = target_of(checkpoint) + ".previous", of_checkpoint = "checkpoint.file",
                     called = "the checkpoint";
@@ -118,6 +123,8 @@ std::vector<InputFile> input_files(const scene::Scene& scene) {
 void name_inputs(const scene::Scene& scene, OutputPlaces& places) {
   for (const InputFile& file : input_files(scene)) places.reads(file.path, file.called);
 }
+
+std::string log_path(const std::string& results) { return fs::path(results).replace_extension(".log"); }
 
 void check_run_places(const scene::Scene& scene, const RunFiles& asked) { places_of(scene, asked).check(); }
 
@@ -152,7 +159,8 @@ HeldPlaces::HeldPlaces(const scene::Scene& scene, const RunFiles& asked) {
   check_run_places(scene, asked);
   made_ = make_own_folder(scene, scene.output.file);
   locks_.push_back(std::make_unique<RunLock>(scene.output.file, "output.file"));
-  locks_.push_back(std::make_unique<RunLock>(checkpoint_path(scene), "checkpoint.file"));
+  const std::string beside = asked.logs ? log_path(scene.output.file) : checkpoint_path(scene);
+  locks_.push_back(std::make_unique<RunLock>(beside, asked.logs ? "output.file" : "checkpoint.file"));
   check_run_places(scene, asked);  // again, now that no other run changes anything
   check_what_gets_lost(scene, asked);
 }

@@ -13,7 +13,13 @@ namespace railwave {
 struct RunFiles {
   bool restart = false;    ///< it goes on from its checkpoint and adds to its results
   bool overwrite = false;  ///< --overwrite
+  bool logs = false;       ///< it writes log_path() and, as members of an ensemble do, no checkpoints
 };
+
+/// Where a member of an ensemble says how it goes on: beside its results.
+std::string log_path(const std::string& results);
+/// How a log begins.
+inline constexpr const char* log_mark = "Railwave: a member of an ensemble";
 
 /// Throws InputError where a run of this scene must not write its files, see OutputPlaces. Changes no file.
 void check_run_places(const scene::Scene& scene, const RunFiles& asked);
@@ -51,7 +57,7 @@ class RunLock {
 };
 
 /// The files of a run while it lasts: makes the folder results/NAME where that is its place, and locks results and
-/// checkpoint. At the end the locks go, and so does a folder that has remained empty.
+/// checkpoint, or results and log. At the end the locks go, and so does a folder that has remained empty.
 class HeldPlaces {
  public:
   /// Throws InputError where check_run_places() and check_what_gets_lost() do, and if another run writes one of the

@@ -124,7 +124,7 @@ int run_case(const Arguments& arguments) {
             after_reading_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
       return *code;
   }
-  OtherRanks others;
+  OtherRanks others(arguments.case_file, arguments.overrides);
   return others.end_together([&] { return run_scene(arguments, scene, files, others, patience, began); });
 }
 

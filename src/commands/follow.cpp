@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "case/document.hpp"
 #include "case/error.hpp"
 #include "case/read_case.hpp"
 #include "commands/process.hpp"
@@ -53,6 +54,17 @@ std::unique_ptr<Transport> begin_mpi() {
   return transport;
 }
 
+/// What a rank has been given to run; where the case cannot be read, the settings alone.
+std::string given(const std::string& case_file, const std::vector<std::string>& overrides) {
+  std::string text;
+  for (const std::string& one : overrides) text += one + '\n';
+  try {
+    return text + case_file::load_text(case_file);
+  } catch (const InputError&) {
+    return text;
+  }
+}
+
 /// Makes the model. Whoever reads sees what rank 0 says of the case; this rank says what it alone finds.
 int build(const std::string& case_file, const std::vector<std::string>& overrides, Transport& transport, Model& model) {
   try {
@@ -86,12 +98,17 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   } catch (const std::bad_alloc& error) {
     complain(rank_of_process(), out_of_memory(error));
     return failed;
+  } catch (const InputError&) {
+    return wrong_input;  // rank 0 says it
   }
   if (!transport) return failed;
   try {
     wanted_row_way(*transport);
+    expect_one_case(*transport, given(case_file, overrides));
   } catch (const InputError&) {
     return wrong_input;  // rank 0 says it
+  } catch (const std::runtime_error&) {
+    return failed;  // the same
   }
   const KokkosScope kokkos;
   Model model;
@@ -106,8 +123,11 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   return done;
 }
 
-OtherRanks::OtherRanks() : transport_(begin_mpi()) {
-  if (transport_) wanted_row_way(*transport_);  // a mistake is said before there is anything to wait for
+OtherRanks::OtherRanks(const std::string& case_file, const std::vector<std::string>& overrides)
+    : transport_(begin_mpi()) {
+  if (!transport_) return;
+  wanted_row_way(*transport_);  // a mistake is said before there is anything to wait for
+  expect_one_case(*transport_, given(case_file, overrides));
 }
 
 OtherRanks::~OtherRanks() {

@@ -17,8 +17,9 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
 /// Rank 0's word that it begins the run, or, where this ends before, that it does not.
 class OtherRanks {
  public:
-  /// Throws TooLittleMemory where MPI would not find enough to begin.
-  OtherRanks();
+  /// Throws TooLittleMemory where MPI would not find enough to begin, std::runtime_error where another rank has been
+  /// given another case, or the same with other settings.
+  OtherRanks(const std::string& case_file, const std::vector<std::string>& overrides);
   ~OtherRanks();
   OtherRanks(const OtherRanks&) = delete;
   OtherRanks& operator=(const OtherRanks&) = delete;

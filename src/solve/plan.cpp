@@ -111,7 +111,7 @@ bool loads_concern_late_nodes(const Model& model) {
   const auto shared = to_host(model.shared.nodes);
   for (std::size_t i = model.first_late; i < shared.extent(0); ++i) late[shared(i).node & ~special_bit] = 1;
   for (const TiedPlace& tied : model.ties.places) late[tied.slave] = 1;
-  std::vector<std::vector<int>> lists{to_vector(model.external.contribution_node), to_vector(model.sets.nodes)};
+  std::vector<std::vector<int>> lists{to_vector(model.external.contribution_node), nodes_of_moving_sets(model)};
   if (model.beams) lists.push_back(to_vector(model.beams->arrays.node));
   return std::any_of(lists.begin(), lists.end(), [&](const std::vector<int>& nodes) {
     return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return late[n] != 0; });

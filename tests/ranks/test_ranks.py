@@ -281,6 +281,18 @@ class Refusals(Ranks):
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("1: this process has another model than rank 0", run.stderr)
 
+    def test_processes_with_different_settings(self):
+        """Also where models begin alike."""
+        self.write(scene("penalty"))
+        command = [str(PROGRAM), "run", "case.toml"]
+        for setting in ("monitor.active=false", "solver.subcycling=true", "output.history_interval=1e-6"):
+            run = subprocess.run([*MPIRUN, "-n", "2", *command, ":", "-n", "1", *command, "--set", setting],
+                                 cwd=self.folder, text=True, capture_output=True, env=ENVIRONMENT, timeout=PATIENCE,
+                                 check=False)
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertIn("2: this process has another model than rank 0", run.stderr)
+            self.assertFalse(self.results.exists())
+
 
 class WaysOfRows(Ranks):
     def test_that_there_are_not(self):
@@ -375,6 +387,23 @@ class LostRanks(Ranks):
 
     def test_a_killed_rank_ends_all(self):
         self.assertRegex(self.lose(1, signal.SIGKILL), r"rank 1 .*(signal 9|Killed)")
+
+    def test_ranks_that_are_all_held_for_a_while_go_on(self):
+        """As by a scheduler that lets others go first."""
+        self.write(scene("penalty", 0.02))
+        self.run_to_end(1, "--set", "time.end=1e-3")
+        alone = self.kept("alone.h5")
+        run = self.start(3, "--set", "time.end=1e-3", "--set", "checkpoint.interval=0.02",
+                         RAILWAVE_RANK_PATIENCE="1")
+        self.when_it_runs(run)
+        ranks = self.others(run)
+        for number in (signal.SIGSTOP, signal.SIGCONT):
+            for rank in ranks:
+                os.kill(rank, number)
+            time.sleep(2.5 if number == signal.SIGSTOP else 0)
+        said, _ = run.communicate(timeout=PATIENCE)
+        self.assertEqual(run.returncode, 0, said)
+        self.assert_same(alone, self.results)
 
     def test_a_rank_that_stalls_ends_all(self):
         self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP))

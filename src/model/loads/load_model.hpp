@@ -59,6 +59,9 @@ struct LoadModel {
   TorqueArrays torques;
 };
 
+/// Nodes of the sets whose motion connectors and torques follow at each step; histories sum theirs block by block.
+std::vector<int> nodes_of_moving_sets(const LoadModel& loads);
+
 /// Forces of loads, connectors and beams on nodes: one entry for each force on one node.
 struct Contributions {
   std::vector<int> node;

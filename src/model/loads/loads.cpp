@@ -232,6 +232,12 @@ std::vector<RowShare> contribution_shares(const Collector& collector, const Load
 
 }  // namespace
 
+std::vector<int> nodes_of_moving_sets(const LoadModel& loads) {
+  std::vector<int> nodes = to_vector(loads.sets.nodes);
+  nodes.resize(loads.sets.moving > 0 ? loads.first_of_set[loads.sets.moving] : 0);
+  return nodes;
+}
+
 Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads) {
   Collector collector{assembled, {}, {}, {}, {}, {}, {}};
   for (const scene::Load& load : assembled.scene.loads) build_load(collector, load, beams, loads.loads);

@@ -37,7 +37,7 @@ std::vector<char> bound_nodes(const Model& model) {
     mark(pair.slave_nodes);
     mark(pair.master_nodes);
   }
-  if (model.sets.count > 0) mark(to_vector(model.sets.nodes));
+  mark(nodes_of_moving_sets(model));
   for (const PrescribedSet& set : model.prescribed) mark(to_vector(set.nodes));
   for (const TiedPlace& tied : model.ties.places) {
     bound[tied.slave] = 1;

@@ -51,6 +51,22 @@ inline void meet(Transport& transport) {
   throw std::runtime_error("rank " + std::to_string(failed) + " could not make the model; nothing was run");
 }
 
+/// All ranks have been given the same case with the same settings, or none goes on.
+/// Throws std::runtime_error where another one's text differs from rank 0's.
+inline void expect_one_case(Transport& transport, const std::string& text) {
+  std::string of_rank_0 = text;
+  std::size_t size = text.size();
+  transport.broadcast(&size, sizeof size);
+  of_rank_0.resize(size);
+  transport.broadcast(of_rank_0.data(), size);
+  const int other = transport.first_to_refuse(of_rank_0 == text);
+  if (other < 0) return;
+  transport.followers_have_ended = true;
+  throw std::runtime_error("rank " + std::to_string(other) +
+                           ": this process has another model than rank 0: all that mpirun starts must be given the "
+                           "same program, case and settings");
+}
+
 // Of solve/ranks/mpi_transport.cpp:
 
 /// The number of this process among those that a launcher of MPI has started together, before MPI is begun; 0: alone,

@@ -176,11 +176,16 @@ class MpiTransport : public Transport {
   template <class Come>
   void wait_until(const Come& come, double patience) {
     constexpr double usual_wait = 0.1;  // s that nobody loses patience in, so that no question can have come
-    const double began = clock_time();
-    while (!come()) {
+    double began = clock_time();
+    for (bool once_more = true; !come();) {
       const double waited = clock_time() - began;
       if (waited > usual_wait) answer_questions();
-      if (waited > patience) give_up();
+      if (!(waited > patience)) continue;
+      // Where all live, all may have been held for a while, as by a scheduler, and what is waited for comes now.
+      const std::vector<int> silent = silent_ranks();
+      if (!silent.empty() || !once_more) give_up(silent);
+      once_more = false;
+      began = clock_time();
     }
   }
 
@@ -225,16 +230,15 @@ class MpiTransport : public Transport {
     return ranks_ == 2 ? 1 - rank_ : -1;
   }
 
-  [[noreturn]] void give_up() {
-    // Who is waited for may wait for another itself.
-    std::vector<int> silent = silent_ranks();
+  /// @param silent ranks that do not answer: who is waited for may wait for another itself
+  [[noreturn]] void give_up(std::vector<int> silent) {
     if (silent.empty()) silent = {awaited_rank()};
     const std::string who = silent.size() > 1 ? fmt::format("ranks {} have", fmt::join(silent, ", "))
                             : silent[0] < 0   ? "another rank has"
                                               : fmt::format("rank {} has", silent[0]);
     std::cerr << fmt::format(
-                     "railwave: {} not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is good: "
-                     "--restart goes on from it, on any number of ranks",
+                     "railwave: {} not answered rank {} for {:.0f} s; all ranks end. If there is a checkpoint, "
+                     "--restart goes on from the last one, on any number of ranks",
                      who, rank_, patience_)
               << std::endl;
     end_all();

@@ -62,14 +62,16 @@ struct FindNearNodes {
       const double far = reach(entry.node, found.segment);
       const double tolerance =
           ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
-      const double room = penetrating ? 0 : norm(found.offset) - tolerance;
+      const double room = norm(found.offset) - tolerance;
       // The comparisons are false for NaN, so such a node stays near.
-      if (room > far)
+      if (!penetrating && room > far)
         entry.near = 0;
-      else
-        entry.rests = rest.steps(room, far);
-      if (entry.projected() && by.several_sheets(slave, found, norm(found.offset) + 2 * far))
+      else if (by.several_sheets(slave, found, norm(found.offset) + 2 * far))
         entry.near = near_several_sheets;
+      // One beside the surface can come in under it, as far from it as it is, and must be seen beside it a step before;
+      // so must one that may be within another sheet's body.
+      else if (!beside && found.gap > 0)
+        entry.rests = rest.steps(room, far);
       if (!writes) return;
       contact.tracked(s) = found.segment;
       contact.place(s, 0) = found.place.xi;

@@ -271,6 +271,15 @@ class Refusals(Ranks):
         self.assertEqual(len(elements), 3)
         self.assertEqual(sum(elements), int(re.search(r"in all: (\d+) elements", done.stdout)[1]))
 
+    def test_sets_of_histories_bind_no_elements(self):
+        self.write(scene("penalty"))
+        bound = []
+        for sets in ("[]", '["upper.z_max", "lower.core"]'):
+            done = subprocess.run([PROGRAM, "check", "case.toml", "--ranks", "3", "--set",
+                                   "output.history_sets=" + sets], cwd=self.folder, text=True, capture_output=True)
+            bound.append(re.search(r"rank 0 has all (\d+) elements|$", done.stdout)[1])
+        self.assertEqual(bound[0], bound[1])
+
 
     def test_processes_with_different_cases(self):
         self.write(scene("penalty"))

@@ -11,8 +11,9 @@
 namespace railwave {
 namespace {
 
-/// Between regular checks: a 32nd of the run, but within these bounds; powers of two, whole cycles of any levels.
-constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_of_run = 32;
+/// Between regular checks: at most a 23rd of the run, as for energies, but within these bounds; powers of two, whole
+/// cycles of any levels.
+constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_of_run = 23;
 /// At the energies alone, at least: a broken account must not waste more than a twentieth of a run. Long runs have
 /// twice as many, each in half the time: a check of a GPU takes as long as ten steps.
 constexpr long energy_checks_of_run = 24, most_energy_checks = 48;

@@ -47,6 +47,11 @@ void check_can_be_extended(const std::string& results_path) {
 Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end) {
   Restart restart;
   const ResultsThere there = inspect(results_path);
+  if (there.key.empty())
+    throw InputError(fmt::format(
+        "--restart: the results {} are those of an ensemble's member, whose state is not kept; run the case "
+        "with --overwrite instead of --restart, which replaces them",
+        results_path));
   if (there.key != checkpoint.key())
     throw InputError(
         fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another "

@@ -68,6 +68,8 @@ class Ensemble(Folder):
         self.ensemble(("output.file=a.h5",), ("output.file=b.h5",))
         self.assertTrue(self.completed("a.h5") and self.completed("b.h5"))
         self.assertFalse((self.folder / "state.h5").exists())
+        complaint, _ = self.ends(self.start("run", "case.toml", "--restart", "--set", "output.file=a.h5"), 2)
+        self.assertIn("those of an ensemble's member, whose state is not kept", complaint)
 
     def test_blanks_around_a_key(self):
         self.ensemble(("output.file = a.h5",))

@@ -13,6 +13,10 @@ struct NearRest {
   /// as much as to project it some times.
   static constexpr int span = 8;
 
+  /// Whether a node that has rested is looked at. The check has seen one sheet within its way, so that what comes of it
+  /// does not depend on boxes, which a checkpoint has not.
+  KOKKOS_INLINE_FUNCTION bool wakes() const { return since > 0; }
+
   /// @param room m, how much nearer the node may come
   /// @param reach m, how much nearer it can come until the next check
   KOKKOS_INLINE_FUNCTION int steps(double room, double reach) const {
@@ -66,7 +70,7 @@ struct FindNearNodes {
       // The comparisons are false for NaN, so such a node stays near.
       if (!penetrating && room > far)
         entry.near = 0;
-      else if (by.several_sheets(slave, found, norm(found.offset) + 2 * far))
+      else if (!rest.wakes() && by.several_sheets(slave, found, norm(found.offset) + 2 * far))
         entry.near = near_several_sheets;
       // One beside the surface can come in under it, as far from it as it is, and must be seen beside it a step before;
       // so must one that may be within another sheet's body.

@@ -152,6 +152,32 @@ TEST_CASE("near nodes that rest between two checks are looked at before they can
   CHECK(late_contacts(model.contacts).empty());
 }
 
+TEST_CASE("nodes rest on after a checkpoint, which has no boxes, and gaps are the same") {
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 5e-4;
+  scene::Scene scene = blocks.scene(3e-4);
+  add_motion(scene, {"upper"}, {30, 5, -4}, {0, 200, 100});
+  const auto states = [&](bool taken_up) {
+    Model model;
+    build_model(scene, model);
+    set_initial_motion(model, model.nodes, model.beams);
+    march(model, 20, [] {});  // amid two checks
+    if (taken_up) model.contacts[0].boxed = false;
+    std::vector<int> state;
+    std::vector<double> gaps;
+    march(model, 30, [&] {
+      const auto entries = to_host(model.contacts[0].window.entries);
+      for (int i = 0; i < model.contacts[0].window.count; ++i) state.push_back(entries(i).projected());
+      const auto now = contact_state(model, model.ties, model.contacts, 0).gap;
+      gaps.insert(gaps.end(), now.begin(), now.end());
+    });
+    for (double& gap : gaps)
+      if (!(gap < 1)) gap = 1;
+    return std::pair(state, gaps);
+  };
+  CHECK(states(false) == states(true));
+}
+
 TEST_CASE("a shock that meets near nodes while they rest makes them late, not lost") {
   if (on_device) SKIP("on a GPU no node rests");
   TwoBlocks blocks = small_on_large();

@@ -237,7 +237,7 @@ bool renew_window(const NodalState& nodal, ContactPair& pair, double step, doubl
 /// Whether near nodes rest. On a GPU they don't: it looks at as many as there are in the time that the slowest takes.
 constexpr bool near_nodes_rest = !on_device;
 
-/// Nodes that rest are projected from now on.
+/// Nodes that rest are projected from now on, as those of a processor's checkpoint are on a GPU.
 void end_rests(ContactWindow& window) {
   const auto entries = to_host(window.entries);
   const auto near = to_host(window.near), near_count = to_host(window.near_count);
@@ -291,13 +291,13 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   const bool laid_out = check && renew_window_between(space, nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   if (near_check || !pair.boxed) update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then);
-  FindNearNodes find{search, pair.window,       nodal.nodes.velocity, interval, sudden_until_then,
-                     first,  first || laid_out, pair.missed,          {},       pair.uncounted,
-                     {}};
+  FindNearNodes find{
+      search,      pair.window, nodal.nodes.velocity, interval, sudden_until_then, first, first || laid_out || wake,
+      pair.missed, {},          pair.uncounted,       {}};
   if (rest) find.rest = {static_cast<int>(since), static_cast<double>(ahead) / NearRest::span};
   if (!near_check) {
     // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
-    if (!pair.boxed) end_rests(pair.window);
+    if (!pair.boxed && !near_nodes_rest) end_rests(pair.window);
     pair.boxed = true;
     if constexpr (near_nodes_rest)
       if (wake) Kokkos::parallel_for("wake_nodes", SpreadRange(space, 0, pair.window.count), WakeNodes{find});

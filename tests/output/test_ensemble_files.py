@@ -27,8 +27,9 @@ class Ensemble(Folder):
             return bool(file.attrs["completed"])
 
     def test_one_that_cannot_write_ends_no_other(self):
-        many = ("output.file=a.h5", "time.end=1e-4", "output.field_interval=1e-8", "output.history_interval=1e-8")
-        few = ("output.file=b.h5", "output.field_interval=1e-3")
+        # Both run for a second, in which the first one's file becomes too large.
+        many = ("output.file=a.h5", "time.end=2e-3", "output.field_interval=1e-6")
+        few = ("output.file=b.h5", "time.end=2e-3", "output.field_interval=2e-3", "output.history_interval=1e-4")
         _, said = self.ensemble(many, few, code=1, before=limited("fsize", 800_000))
         self.assertIn("member 1, a.h5: failed", said)
         self.assertIn("member 2, b.h5: completed", said)

@@ -11,11 +11,11 @@
 
 namespace railwave {
 
-/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
-/// aren't.
-/// Between the place and the bytes that are free there, where the disk is too small for what a run will write.
+/// In the message that the disk is too small for what a run will write: between how much that is, and the file.
 inline constexpr const char* disk_too_small = " before compression, but ";
 
+/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
+/// aren't.
 struct ResultsSize {
   double field_outputs = 0, samples = 0;      ///< how many of each
   double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed

@@ -85,16 +85,15 @@ class TimeLoop {
     else
       recording_.finish(!late_);
     if (leader_) leader_->sample(instant_);
-    const bool energies_summed = (late_ || (order_.own() && samples_energies())) && record_sampled_forces();
+    const bool energies_summed = samples_energies() && !leader_ && record_sampled_forces();
     if (!energies_summed)
       plans_.compute_forces(in_order(), sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     wait_for_other_ranks();
-    if (order_.own()) {
+    if (late_)
+      late_sample_.begin(model_, model_.step_size, {output_due_, energies_summed});
+    else if (!leader_)
       ask(energies_summed);
-      return true;
-    }
-    if (late_) late_sample_.begin(model_, model_.step_size, {output_due_, energies_summed});
-    return finish_step();
+    return order_.own() || finish_step();
   }
 
   /// The present state, between two steps.
@@ -127,7 +126,7 @@ class TimeLoop {
   /// Whether what comes next would wait for the device, or has enough before it: so many graphs that there is none too
   /// few while the host is with another member.
   bool busy() const {
-    if (asked_) return (sample_ && answered_.ahead() > 0) || memory_.monitor.waits_for_contact_ends();
+    if (asked_) return (sample_ && answered_.ahead() > 0) || memory_.monitor.waits();
     const bool would_wait = memory_.control.would_wait() || recording_.would_wait() || sampled_forces_.would_wait();
     return recording_.graphs_ahead() > (would_wait ? 0 : most_graphs_ahead);
   }
@@ -246,7 +245,7 @@ class TimeLoop {
 
   /// Of this instant, what finish_step() needs.
   void ask(bool energies_summed) {
-    memory_.monitor.ask_for_contact_ends(order_.space());
+    memory_.monitor.ask(order_.space(), samples_energies());
     if (samples_energies()) {
       const SampleUnderWay::What what{output_due_, energies_summed, memory_.monitor.part_energies(model_.step)};
       sample_ = std::make_unique<SampleUnderWay>(model_, model_.step_size, what, order_.space());

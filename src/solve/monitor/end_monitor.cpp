@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/support/reductions.hpp"
 #include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
 
@@ -117,7 +116,7 @@ struct EndMonitor::Crossing {
 /// What is asked of the device.
 struct EndMonitor::Question {
   Reductions reductions;
-  std::vector<Largest<ContactEndForces::values>> found;  ///< by pair
+  Found found;
 };
 
 void EndMonitor::ask(const ExecutionSpace& order) {
@@ -131,23 +130,26 @@ void EndMonitor::ask(const ExecutionSpace& order) {
 }
 
 void EndMonitor::check(bool thorough) {
-  if (!question_) ask(ExecutionSpace());
-  question_->reductions.finish_fetch(answered_);
-  const auto found = std::move(question_->found);
-  question_.reset();
+  if (question_ || found_at_ != nodal_.step) {
+    if (!question_) ask(ExecutionSpace());
+    question_->reductions.finish_fetch(answered_);
+    found_ = std::move(question_->found);
+    found_at_ = nodal_.step;
+    question_.reset();
+  }
   for (EndSighting& one : sightings_) one = {};
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const ContactPair& pair = contacts_[p];
     Memory& memory = pairs_[p].memory;
     EndSighting& now = pairs_[p].now;
     const bool was_closed = memory.closed != 0;
-    const auto& largest = found[p].value;
+    const auto& largest = found_[p].value;
     now = {};
     now.closed = largest[0] > 0;
     if (now.closed) {
       const double force = std::max(largest[0], 1e-290);
       now.outside_zone = largest[2] / force;
-      if (now.outside_zone > assembled_.scene.monitor.fine_zone) place_outside_zone(p, found[p].place[2]);
+      if (now.outside_zone > assembled_.scene.monitor.fine_zone) place_outside_zone(p, found_[p].place[2]);
       const double share = largest[1] / force;
       if (thorough) memory.harmless = 0;
       if (share > assembled_.scene.monitor.contact_edge && memory.harmless == 0)
@@ -385,6 +387,7 @@ void EndMonitor::archive(StateSaver& state) {
 }
 
 void EndMonitor::archive(StateRestorer& state) {
+  found_at_ = -1;
   archive_memory(state);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const std::string name = fmt::format("end_watch_touched_{}", p);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernels/contact/contact_ends.hpp"
+#include "kernels/support/reductions.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/contact/surface_ends.hpp"
@@ -48,7 +49,7 @@ class EndMonitor {
   /// Whether the device has yet to come to that.
   bool waits() const { return answered_.ahead() > 0; }
 
-  /// Checks all contacts of the scene; waits for what was asked, or asks.
+  /// Checks all contacts of the scene; waits for what was asked, or asks, but once a step.
   /// @param thorough whether ends that were found to be no matter are checked again
   void check(bool thorough);
 
@@ -87,6 +88,7 @@ class EndMonitor {
   };
   struct Crossing;
   struct Question;
+  using Found = std::vector<Largest<ContactEndForces::values>>;
 
   void judge(std::size_t number);
   bool has_moved_out(std::size_t number) const;
@@ -102,6 +104,8 @@ class EndMonitor {
   ReductionSpace reduction_space_;  ///< a sample of the same instant has the model's
   Milestone answered_;
   std::shared_ptr<Question> question_;  ///< null: nothing was asked
+  Found found_;                         ///< by pair, of the last check
+  long found_at_ = -1;                  ///< step of that check, which the next one may be of, too; -1: none
   std::vector<Pair> pairs_;
   std::vector<EndSighting> sightings_;
   std::vector<char> ever_closed_;  ///< by contact of the scene

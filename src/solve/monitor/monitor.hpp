@@ -59,12 +59,15 @@ class Monitor {
   /// Checks the ends of contact surfaces, where it is time: every 256 steps, after the forces. That costs much less
   /// than a check of the model, and the step stays as any.
   void check_contact_ends();
-  /// Before that, where something else is launched meanwhile: asks the device for what the check has of it.
-  void ask_for_contact_ends(const ExecutionSpace& order) {
+  /// Before the checks of this step: asks the device for all that they have of it, so that it is waited for once.
+  /// @param order in which the launches come
+  /// @param sampled whether check() will get a sample of this step
+  void ask(const ExecutionSpace& order, bool sampled) {
     if (contact_ends_due(nodal_.step)) ends_->ask(order);
+    if (sampled && arrays_ && whole_due(nodal_.step)) arrays_->ask(nodal_, contacts_, order);
   }
   /// Whether the device has yet to come to that.
-  bool waits_for_contact_ends() const { return ends_ && ends_->waits(); }
+  bool waits() const { return (ends_ && ends_->waits()) || (arrays_ && arrays_->waits()); }
   bool contact_ends_due(long step) const { return ends_ && step % EndMonitor::steps_between == 0; }
   /// Whether this step's check may ask where whole parts are: then no node may have been moved on before it.
   bool asks_for_places(long step) const { return contact_ends_due(step) && ends_->may_ask_for_places(); }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "kernels/support/reductions.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 
@@ -79,16 +78,18 @@ void MonitorArrays::archive(StateRestorer& state) {
   }
 }
 
-MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const {
-  MonitorMeasures found;
-  Reductions reductions(*nodal.reduction_space);
-  reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count, [&](const Largest<2>& of) {
+void MonitorArrays::ask(const NodalState& nodal, const std::vector<ContactPair>& contacts,
+                        const ExecutionSpace& order) {
+  question_ = std::make_shared<Question>(Question{Reductions(reduction_space_, order), {}});
+  Reductions& reductions = question_->reductions;
+  MonitorMeasures& found = question_->found;
+  reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count, [this, &found](const Largest<2>& of) {
     const auto element = [this](int i) { return i < 0 || elements_.empty() ? i : elements_[i]; };
     found.jacobian = {-of.value[0], element(of.place[0])};
     found.distortion = {of.value[1], element(of.place[1])};
   });
   const int nodes = own_nodes_ ? static_cast<int>(nodes_.extent(0)) : nodal.nodes.count;
-  reductions.largest(NodeCheck{nodal.subcycled_acceleration(), nodes_}, nodes, [&](const Largest<2>& of) {
+  reductions.largest(NodeCheck{nodal.subcycled_acceleration(), nodes_}, nodes, [this, &found](const Largest<2>& of) {
     const auto node = [this](int i) { return i < 0 || !own_nodes_ ? i : node_numbers_[i]; };
     found.speed = {of.value[0], node(of.place[0])};
     found.acceleration = {of.value[1], node(of.place[1])};
@@ -96,13 +97,20 @@ MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vecto
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactPair& pair = contacts[c];
     reductions.largest(ContactCheck{pair.arrays, nodal.nodes.position, changes_[c]}, pair.arrays.slave_count,
-                       [&](const Largest<2>& of) {
+                       [&pair, &found](const Largest<2>& of) {
                          const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
                          found.penetration.push_back({of.value[0], node(of.place[0])});
                          found.chatter.push_back({of.value[1], node(of.place[1])});
                        });
   }
-  reductions.fetch();
+  reductions.start_fetch(answered_);
+}
+
+MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
+  if (!question_) ask(nodal, contacts, ExecutionSpace());
+  question_->reductions.finish_fetch(answered_);
+  MonitorMeasures found = std::move(question_->found);
+  question_.reset();
   return found;
 }
 

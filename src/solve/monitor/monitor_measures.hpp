@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "kernels/monitor/monitor_terms.hpp"
+#include "kernels/support/milestone.hpp"
+#include "kernels/support/reductions.hpp"
 #include "model/assembly.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/nodal_state.hpp"
@@ -38,7 +41,14 @@ class MonitorArrays {
  public:
   /// @param own elements and nodes that this process measures; null: all
   MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts, const OwnItems* own = nullptr);
-  MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const;
+
+  /// Asks the device for the measures of the present instant.
+  /// @param order in which the launches come
+  void ask(const NodalState& nodal, const std::vector<ContactPair>& contacts, const ExecutionSpace& order);
+  /// Whether the device has yet to come to that.
+  bool waits() const { return answered_.ahead() > 0; }
+  /// Waits for what was asked, or asks.
+  MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts);
 
   /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s.
   double largest_rate(const NodalState& nodal) const;
@@ -54,6 +64,15 @@ class MonitorArrays {
   std::vector<int> node_numbers_;
   Array<int*> nodes_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
+
+  /// What is asked of the device.
+  struct Question {
+    Reductions reductions;
+    MonitorMeasures found;
+  };
+  ReductionSpace reduction_space_;  ///< a sample of the same instant has the model's
+  Milestone answered_;
+  std::shared_ptr<Question> question_;  ///< null: nothing was asked
 };
 
 }  // namespace railwave

@@ -58,19 +58,19 @@ class MonitorArrays {
   void archive(StateRestorer& state);
 
  private:
+  /// What is asked of the device.
+  struct Question {
+    Reductions reductions;
+    MonitorMeasures found;
+  };
+
   ElementShapes shapes_;
   std::vector<int> elements_;  ///< the numbers of those measured; empty: all are
   bool own_nodes_ = false;     ///< the listed nodes alone are measured
   std::vector<int> node_numbers_;
   Array<int*> nodes_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
-
-  /// What is asked of the device.
-  struct Question {
-    Reductions reductions;
-    MonitorMeasures found;
-  };
-  ReductionSpace reduction_space_;  ///< a sample of the same instant has the model's
+  ReductionSpace reduction_space_;    ///< a sample of the same instant has the model's
   Milestone answered_;
   std::shared_ptr<Question> question_;  ///< null: nothing was asked
 };

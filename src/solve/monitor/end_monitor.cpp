@@ -113,43 +113,31 @@ struct EndMonitor::Crossing {
   bool slid_out;  ///< the slave has moved that way over the master
 };
 
-/// What is asked of the device.
-struct EndMonitor::Question {
-  Reductions reductions;
-  Found found;
-};
-
 void EndMonitor::ask(const ExecutionSpace& order) {
-  question_ = std::make_shared<Question>(Question{Reductions(reduction_space_, order), {}});
-  auto& found = question_->found;
-  found.resize(pairs_.size());
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
-    question_->reductions.largest(ContactEndForces{contacts_[p].arrays, pairs_[p].arrays, nodal_.nodes.position},
-                                  contacts_[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
-  question_->reductions.start_fetch(answered_);
+  question_.ask(order, [this](Reductions& reductions, auto& found) {
+    found.resize(pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      reductions.largest(ContactEndForces{contacts_[p].arrays, pairs_[p].arrays, nodal_.nodes.position},
+                         contacts_[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
+  });
 }
 
 void EndMonitor::check(bool thorough) {
-  if (question_ || found_at_ != nodal_.step) {
-    if (!question_) ask(ExecutionSpace());
-    question_->reductions.finish_fetch(answered_);
-    found_ = std::move(question_->found);
-    found_at_ = nodal_.step;
-    question_.reset();
-  }
+  if (!question_.asked()) ask(ExecutionSpace());
+  const auto found = question_.answer();
   for (EndSighting& one : sightings_) one = {};
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const ContactPair& pair = contacts_[p];
     Memory& memory = pairs_[p].memory;
     EndSighting& now = pairs_[p].now;
     const bool was_closed = memory.closed != 0;
-    const auto& largest = found_[p].value;
+    const auto& largest = found[p].value;
     now = {};
     now.closed = largest[0] > 0;
     if (now.closed) {
       const double force = std::max(largest[0], 1e-290);
       now.outside_zone = largest[2] / force;
-      if (now.outside_zone > assembled_.scene.monitor.fine_zone) place_outside_zone(p, found_[p].place[2]);
+      if (now.outside_zone > assembled_.scene.monitor.fine_zone) place_outside_zone(p, found[p].place[2]);
       const double share = largest[1] / force;
       if (thorough) memory.harmless = 0;
       if (share > assembled_.scene.monitor.contact_edge && memory.harmless == 0)
@@ -387,7 +375,6 @@ void EndMonitor::archive(StateSaver& state) {
 }
 
 void EndMonitor::archive(StateRestorer& state) {
-  found_at_ = -1;
   archive_memory(state);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const std::string name = fmt::format("end_watch_touched_{}", p);

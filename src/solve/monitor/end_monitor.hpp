@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "kernels/contact/contact_ends.hpp"
-#include "kernels/support/reductions.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/contact/surface_ends.hpp"
 #include "model/nodal_state.hpp"
 #include "solve/checkpoint/run_state.hpp"
+#include "solve/monitor/question.hpp"
 #include "solve/monitor/sampled_ranks.hpp"
 
 namespace railwave {
@@ -47,9 +47,9 @@ class EndMonitor {
   /// @param order in which the launches come
   void ask(const ExecutionSpace& order);
   /// Whether the device has yet to come to that.
-  bool waits() const { return answered_.ahead() > 0; }
+  bool waits() const { return question_.waits(); }
 
-  /// Checks all contacts of the scene; waits for what was asked, or asks, but once a step.
+  /// Checks all contacts of the scene; waits for what was asked, or asks. Once a step.
   /// @param thorough whether ends that were found to be no matter are checked again
   void check(bool thorough);
 
@@ -87,8 +87,6 @@ class EndMonitor {
     EndSighting now;
   };
   struct Crossing;
-  struct Question;
-  using Found = std::vector<Largest<ContactEndForces::values>>;
 
   void judge(std::size_t number);
   bool has_moved_out(std::size_t number) const;
@@ -101,11 +99,7 @@ class EndMonitor {
   const NodalState& nodal_;
   const std::vector<ContactPair>& contacts_;
   SampledRanks* const others_;
-  ReductionSpace reduction_space_;  ///< a sample of the same instant has the model's
-  Milestone answered_;
-  std::shared_ptr<Question> question_;  ///< null: nothing was asked
-  Found found_;                         ///< by pair, of the last check
-  long found_at_ = -1;                  ///< step of that check, which the next one may be of, too; -1: none
+  Question<std::vector<Largest<ContactEndForces::values>>> question_;  ///< by pair
   std::vector<Pair> pairs_;
   std::vector<EndSighting> sightings_;
   std::vector<char> ever_closed_;  ///< by contact of the scene

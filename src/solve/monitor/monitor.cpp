@@ -73,7 +73,7 @@ Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const
 
 void Monitor::check_contact_ends() {
   static_assert(EndMonitor::steps_between % (1L << (most_levels - 1)) == 0);
-  if (!contact_ends_due(nodal_.step)) return;
+  if (!contact_ends_due(nodal_.step) || whole_due(nodal_.step)) return;
   ends_->check(false);
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];

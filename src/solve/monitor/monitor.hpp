@@ -57,7 +57,7 @@ class Monitor {
   std::vector<PartEnergy>* part_energies(long step) { return arrays_ && looks_at_model(step) ? &by_part_ : nullptr; }
 
   /// Checks the ends of contact surfaces, where it is time: every 256 steps, after the forces. That costs much less
-  /// than a check of the model, and the step stays as any.
+  /// than a check of the model, and the step stays as any. Where a check of the model is due, that has them.
   void check_contact_ends();
   /// Before the checks of this step: asks the device for all that they have of it, so that it is waited for once.
   /// @param order in which the launches come

@@ -80,38 +80,34 @@ void MonitorArrays::archive(StateRestorer& state) {
 
 void MonitorArrays::ask(const NodalState& nodal, const std::vector<ContactPair>& contacts,
                         const ExecutionSpace& order) {
-  question_ = std::make_shared<Question>(Question{Reductions(reduction_space_, order), {}});
-  Reductions& reductions = question_->reductions;
-  MonitorMeasures& found = question_->found;
-  reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count, [this, &found](const Largest<2>& of) {
-    const auto element = [this](int i) { return i < 0 || elements_.empty() ? i : elements_[i]; };
-    found.jacobian = {-of.value[0], element(of.place[0])};
-    found.distortion = {of.value[1], element(of.place[1])};
-  });
-  const int nodes = own_nodes_ ? static_cast<int>(nodes_.extent(0)) : nodal.nodes.count;
-  reductions.largest(NodeCheck{nodal.subcycled_acceleration(), nodes_}, nodes, [this, &found](const Largest<2>& of) {
-    const auto node = [this](int i) { return i < 0 || !own_nodes_ ? i : node_numbers_[i]; };
-    found.speed = {of.value[0], node(of.place[0])};
-    found.acceleration = {of.value[1], node(of.place[1])};
-  });
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const ContactPair& pair = contacts[c];
-    reductions.largest(ContactCheck{pair.arrays, nodal.nodes.position, changes_[c]}, pair.arrays.slave_count,
-                       [&pair, &found](const Largest<2>& of) {
-                         const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
-                         found.penetration.push_back({of.value[0], node(of.place[0])});
-                         found.chatter.push_back({of.value[1], node(of.place[1])});
+  question_.ask(order, [&](Reductions& reductions, MonitorMeasures& found) {
+    reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count,
+                       [this, &found](const Largest<2>& of) {
+                         const auto element = [this](int i) { return i < 0 || elements_.empty() ? i : elements_[i]; };
+                         found.jacobian = {-of.value[0], element(of.place[0])};
+                         found.distortion = {of.value[1], element(of.place[1])};
                        });
-  }
-  reductions.start_fetch(answered_);
+    const int nodes = own_nodes_ ? static_cast<int>(nodes_.extent(0)) : nodal.nodes.count;
+    reductions.largest(NodeCheck{nodal.subcycled_acceleration(), nodes_}, nodes, [this, &found](const Largest<2>& of) {
+      const auto node = [this](int i) { return i < 0 || !own_nodes_ ? i : node_numbers_[i]; };
+      found.speed = {of.value[0], node(of.place[0])};
+      found.acceleration = {of.value[1], node(of.place[1])};
+    });
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const ContactPair& pair = contacts[c];
+      reductions.largest(ContactCheck{pair.arrays, nodal.nodes.position, changes_[c]}, pair.arrays.slave_count,
+                         [&pair, &found](const Largest<2>& of) {
+                           const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
+                           found.penetration.push_back({of.value[0], node(of.place[0])});
+                           found.chatter.push_back({of.value[1], node(of.place[1])});
+                         });
+    }
+  });
 }
 
 MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
-  if (!question_) ask(nodal, contacts, ExecutionSpace());
-  question_->reductions.finish_fetch(answered_);
-  MonitorMeasures found = std::move(question_->found);
-  question_.reset();
-  return found;
+  if (!question_.asked()) ask(nodal, contacts, ExecutionSpace());
+  return question_.answer();
 }
 
 double MonitorArrays::largest_rate(const NodalState& nodal) const {

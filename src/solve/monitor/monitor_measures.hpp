@@ -1,16 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "kernels/monitor/monitor_terms.hpp"
-#include "kernels/support/milestone.hpp"
-#include "kernels/support/reductions.hpp"
 #include "model/assembly.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/nodal_state.hpp"
 #include "model/ranks/rank_share.hpp"
 #include "solve/checkpoint/run_state.hpp"
+#include "solve/monitor/question.hpp"
 
 namespace railwave {
 
@@ -46,7 +44,7 @@ class MonitorArrays {
   /// @param order in which the launches come
   void ask(const NodalState& nodal, const std::vector<ContactPair>& contacts, const ExecutionSpace& order);
   /// Whether the device has yet to come to that.
-  bool waits() const { return answered_.ahead() > 0; }
+  bool waits() const { return question_.waits(); }
   /// Waits for what was asked, or asks.
   MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts);
 
@@ -58,21 +56,13 @@ class MonitorArrays {
   void archive(StateRestorer& state);
 
  private:
-  /// What is asked of the device.
-  struct Question {
-    Reductions reductions;
-    MonitorMeasures found;
-  };
-
   ElementShapes shapes_;
   std::vector<int> elements_;  ///< the numbers of those measured; empty: all are
   bool own_nodes_ = false;     ///< the listed nodes alone are measured
   std::vector<int> node_numbers_;
   Array<int*> nodes_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
-  ReductionSpace reduction_space_;    ///< a sample of the same instant has the model's
-  Milestone answered_;
-  std::shared_ptr<Question> question_;  ///< null: nothing was asked
+  Question<MonitorMeasures> question_;
 };
 
 }  // namespace railwave

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
 
 #include "kernels/support/meanwhile.hpp"
@@ -18,6 +20,20 @@ void launch_whole(Model& model) {
 
 /// Steps, graphs or halves of steps that a member takes before the next one's turn.
 constexpr int most_in_turn = 8;
+
+/// Steps that a member takes before the next one begins, at most. All search for a step at the same one of theirs, one
+/// after the other: so others have enough to do meanwhile. No multiple of the steps between checks for near nodes.
+constexpr long most_steps_apart = 160;
+
+/// So much of a run at most the last member begins after the first: what one has to do alone takes longer.
+constexpr double most_of_run_apart = 0.125;
+
+long steps_apart(const std::vector<EnsembleMember>& members) {
+  long shortest = std::numeric_limits<long>::max();
+  for (const EnsembleMember& member : members) shortest = std::min(shortest, member.model->step_count);
+  const double of_run = most_of_run_apart * static_cast<double>(shortest) / static_cast<double>(members.size());
+  return std::min(most_steps_apart, static_cast<long>(of_run));
+}
 
 /// s, after which the results of who has ended are surely written: before, all others would wait for that.
 constexpr double until_written = 1;
@@ -54,13 +70,22 @@ std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members)
       }
     });
   };
+  std::vector<long> first_step;
+  for (const EnsembleMember& member : members) first_step.push_back(member.model->step);
+  const auto steps_taken = [&](std::size_t m) { return members[m].model->step - first_step[m]; };
+  const long apart = steps_apart(members);
+  const auto waits_to_begin = [&](std::size_t m) {
+    return m > 0 && steps_taken(m) == 0 && loops[m - 1] && !loops[m - 1]->has_ended() && steps_taken(m - 1) < apart;
+  };
   // While one waits for the device, in a search for its step or an output, others go on. A search waits for its turn.
   std::size_t whose_turn = 0, of_others = 0;
   const Meanwhile others_go_on([&] {
     for (std::size_t tried = 0; tried < members.size(); ++tried) {
       of_others = (of_others + 1) % members.size();
       const auto& loop = loops[of_others];
-      if (of_others == whose_turn || !loop || loop->has_ended() || loop->busy() || loop->may_search()) continue;
+      if (of_others == whose_turn || !loop || loop->has_ended() || loop->busy() || loop->may_search() ||
+          waits_to_begin(of_others))
+        continue;
       return take_turn(of_others, 1);
     }
   });
@@ -74,7 +99,7 @@ std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members)
         continue;
       }
       any = true;
-      take_turn(m, most_in_turn);
+      if (!waits_to_begin(m)) take_turn(m, most_in_turn);
     }
   }
   for (std::size_t m = 0; m < members.size(); ++m) {

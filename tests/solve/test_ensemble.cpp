@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <memory>
@@ -21,6 +22,16 @@ struct Samples : RunObserver {
   void history(const Model&, const HistorySample& sample) override { histories.push_back(numbers_of(sample)); }
   void fields(const Model& model, const HistorySample& /*sample*/, const DueFields& /*due*/) override {
     fields_of.push_back(end_of(model));
+  }
+};
+
+/// How many steps another member has taken when this one begins.
+struct StepsAhead : RunObserver {
+  explicit StepsAhead(const Model& the_other) : other(the_other) {}
+  const Model& other;
+  long steps = -1;
+  void history(const Model&, const HistorySample&) override {
+    if (steps < 0) steps = other.step;
   }
 };
 
@@ -113,4 +124,22 @@ TEST_CASE("a member that fails or breaks down ends no other") {
   CHECK(outcomes[1].summary->fault);
   REQUIRE(outcomes[2].summary);
   CHECK(outcomes[2].summary->completed);
+}
+
+TEST_CASE("members are not all at the same step, so that they do not search for one at the same time") {
+  std::vector<std::unique_ptr<Model>> models;
+  std::vector<EnsembleMember> members;
+  for (std::size_t m = 0; m < 2; ++m) {
+    models.push_back(std::make_unique<Model>());
+    build_model(moved_blocks(), *models[m]);
+    members.push_back({models[m].get(), {}});
+  }
+  StepsAhead first_when_second_begins(*models[0]), second_when_first_begins(*models[1]);
+  members[0].observers = {&second_when_first_begins};
+  members[1].observers = {&first_when_second_begins};
+  const long sixteenth = models[0]->step_count / 16;
+  REQUIRE(sixteenth > 8);
+  for (const RunOutcome& outcome : run_together(members)) CHECK(outcome.summary->completed);
+  CHECK(second_when_first_begins.steps == 0);
+  CHECK(first_when_second_begins.steps >= std::min(160L, sixteenth));
 }

@@ -1,6 +1,7 @@
 // The rolling scene in any size: microseconds a step with history every so many steps, the same without any output, and
-// the tasks of a step one by one; beside a block of as many elements.
+// a block of as many elements, in turn; then the tasks of a step one by one.
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -9,7 +10,7 @@
 #include "benchmarks/rolling_scene.hpp"
 #include "solve/monitor/account.hpp"
 #include "solve/statics/settle.hpp"
-#include "solve/time_loop.hpp"
+#include "solve/stepped_run.hpp"
 
 namespace railwave::bench {
 namespace {
@@ -19,7 +20,7 @@ struct Options {
   int repetitions = 3;
   int settle_steps = 500;
   double overlap = 1.1e-4;
-  bool settle = false, block = true;
+  bool settle = false, with_block = true;
   std::string precision = "double";
   std::vector<std::string> overrides;
 };
@@ -52,32 +53,81 @@ void report(Records& records, const std::string& what, double elements, long ste
       .set("spread", timing.spread());
 }
 
-Timing time_run(Model& model, const Options& options, Observer& observer) {
-  model.output_times.history = static_cast<double>(options.output_every) * model.step_size;
-  model.output_times.fields = model.scene.time.end;
-  const auto run_on = [&](long steps) {
-    model.step_count = model.step + steps;
-    const RunSummary summary = run(model, {&observer});
-    if (!summary.completed) throw std::runtime_error(summary.reason);
-    // A second call goes on from here: nothing is set in motion again.
-    model.scene.settle.active = false;
-    model.scene.initial_motions.clear();
-  };
-  run_on(std::min(options.steps, 200L));
-  Timing timing;
-  for (int r = 0; r < options.repetitions; ++r) timing.seconds.push_back(seconds_of([&] { run_on(options.steps); }));
-  return timing;
+/// The scene, built anew each time.
+struct Wheel {
+  Wheel(const Options& options, const std::vector<std::string>& overrides) {
+    scene::Scene scene = rolling_scene(overrides);
+    // The slices that are timed one after another have all the same step.
+    scene.solver.step_estimate = scene::StepEstimate::element;
+    if (!options.settle) {
+      scene.settle.active = options.settle_steps > 0;
+      scene.settle.method = scene::SettleMethod::relaxation;
+      scene.settle.max_steps = options.settle_steps;
+    }
+    Assembly assembly = assemble(scene);
+    if (!options.settle) press_wheel(scene, assembly, options.overlap);
+    build_model(scene, assembly, model);
+    model.output_times.history = static_cast<double>(options.output_every) * model.step_size;
+    model.output_times.fields = model.scene.time.end;
+  }
+  Model model;
+};
+
+/// Of a run with outputs some steps.
+void run_on(Model& model, SteppedRun& run, long steps) {
+  for (const long end = model.step + steps; model.step < end;)
+    if (!run.go_on()) throw std::runtime_error(run.summary().reason);
 }
 
-void time_block(const Options& options, long elements, Records& records) {
-  Choice choice;
-  choice.precision = options.precision;
+/// As many elements in a block.
+struct Block {
+  Block(const Options& options, long elements) {
+    Choice choice;
+    choice.precision = options.precision;
+    build_model(block_scene(elements, choice), model);
+    stir(model);
+    loop = std::make_unique<Loop>(model);
+  }
+  double elements() const { return static_cast<double>(model.element_count()); }
+
   Model model;
-  build_model(block_scene(elements, choice), model);
-  stir(model);
-  Loop loop(model);
-  const Timing timing = repeat(options.repetitions, [&] { loop.steps(options.steps); });
-  report(records, "block, viscous", static_cast<double>(model.element_count()), options.steps, timing);
+  std::unique_ptr<Loop> loop;
+};
+
+/// Of those, taken in turn: a machine that others use is as slow for each.
+struct Timings {
+  Timing run, loop, block;
+};
+
+constexpr long steps_of_warm_up = 200;
+
+/// @param wheel of the run, `loop` being of another
+Timings time_in_turn(const Options& options, Model& wheel, Observer& observer, Loop& loop, Block* block) {
+  wheel.step_count = steps_of_warm_up + options.repetitions * options.steps + 1;
+  const std::vector<RunObserver*> observers{&observer};
+  SteppedRun run(wheel, observers, nullptr);
+  run_on(wheel, run, steps_of_warm_up);
+  loop.steps(steps_of_warm_up);
+  if (block != nullptr) block->loop->steps(steps_of_warm_up);
+  Timings timings;
+  for (int r = 0; r < options.repetitions; ++r) {
+    timings.run.seconds.push_back(seconds_of([&] { run_on(wheel, run, options.steps); }));
+    timings.loop.seconds.push_back(seconds_of([&] { loop.steps(options.steps); }));
+    if (block != nullptr) timings.block.seconds.push_back(seconds_of([&] { block->loop->steps(options.steps); }));
+  }
+  return timings;
+}
+
+/// How fast something is beside the block in the same turn.
+void report_share(Records& records, const std::string& what, double elements, const Timing& timing, const Timing& block,
+                  double elements_of_block) {
+  Timing shares;
+  for (std::size_t r = 0; r < timing.seconds.size(); ++r)
+    shares.seconds.push_back((elements / timing.seconds[r]) / (elements_of_block / block.seconds[r]));
+  const auto [least, most] = std::minmax_element(shares.seconds.begin(), shares.seconds.end());
+  fmt::print("{:28} {:10.3f} of the block's speed, {:.3f} to {:.3f} in {} turns\n", what, shares.median(), *least,
+             *most, shares.seconds.size());
+  records.add().set("what", what + ", of the block's speed").set("elements", elements).set("share", shares.median());
 }
 
 bool work(const Options& options, Records& records) {
@@ -88,43 +138,41 @@ bool work(const Options& options, Records& records) {
   for (const std::string& override_ : overrides) written += " --set " + override_;
   fmt::print("cases/rolling.toml{}\n", written);
 
-  auto model = std::make_unique<Model>();
-  const double building = seconds_of([&] {
-    scene::Scene scene = rolling_scene(overrides);
-    // The runs that are timed one after another have all the same step.
-    scene.solver.step_estimate = scene::StepEstimate::element;
-    if (!options.settle) {
-      scene.settle.active = options.settle_steps > 0;
-      scene.settle.method = scene::SettleMethod::relaxation;
-      scene.settle.max_steps = options.settle_steps;
-    }
-    Assembly assembly = assemble(scene);
-    if (!options.settle) press_wheel(scene, assembly, options.overlap);
-    build_model(scene, assembly, *model);
-  });
-  const double elements = static_cast<double>(model->element_count());
+  std::unique_ptr<Wheel> wheel;
+  const double building = seconds_of([&] { wheel = std::make_unique<Wheel>(options, overrides); });
+  Model& model = wheel->model;
+  const double elements = static_cast<double>(model.element_count());
   fmt::print("{} elements, {} nodes, {:.0f} bytes an element, built in {:.1f} s, step {:.3g} s\n",
-             model->element_count(), model->node_count(), static_cast<double>(device_bytes(*model)) / elements,
-             building, model->step_size);
+             model.element_count(), model.node_count(), static_cast<double>(device_bytes(model)) / elements, building,
+             model.step_size);
   records.add()
       .set("what", "model")
       .set("elements", elements)
-      .set("nodes", model->node_count())
-      .set("device_bytes_per_element", static_cast<double>(device_bytes(*model)) / elements)
+      .set("nodes", model.node_count())
+      .set("device_bytes_per_element", static_cast<double>(device_bytes(model)) / elements)
       .set("build_seconds", building)
-      .set("step_size", model->step_size)
+      .set("step_size", model.step_size)
       .set("precision", options.precision)
       .set("overrides", written);
 
+  // The loop's own, in motion and in contact: a run goes on with its model only.
+  Wheel begun(options, overrides);
+  begun.model.step_count = steps_of_warm_up;
+  if (const RunSummary summary = run(begun.model, {}); !summary.completed) throw std::runtime_error(summary.reason);
+  Loop loop(begun.model);
   Observer observer;
-  const Timing whole = time_run(*model, options, observer);
-  report(records, fmt::format("run, output every {}", options.output_every), elements, options.steps, whole);
+  const auto block = options.with_block ? std::make_unique<Block>(options, model.element_count()) : nullptr;
+  const Timings timings = time_in_turn(options, model, observer, loop, block.get());
+  const std::string run_name = fmt::format("run, output every {}", options.output_every), loop_name = "loop, no output";
+  report(records, run_name, elements, options.steps, timings.run);
   fmt::print("{:28} {} nodes touch, {:.1f} kN\n", "contact at the end", observer.touching, 1e-3 * observer.force[2]);
   records.add().set("what", "contact at the end").set("touching", observer.touching).set("force_z", observer.force[2]);
-
-  Loop loop(*model);
-  const Timing bare = repeat(options.repetitions, [&] { loop.steps(options.steps); });
-  report(records, "loop, no output", elements, options.steps, bare);
+  report(records, loop_name, elements, options.steps, timings.loop);
+  if (block) {
+    report(records, "block, viscous", block->elements(), options.steps, timings.block);
+    report_share(records, run_name, elements, timings.run, timings.block, block->elements());
+    report_share(records, loop_name, elements, timings.loop, timings.block, block->elements());
+  }
   double sum = 0;
   const auto tasks = loop.task_seconds(std::min(options.steps, 500L));
   for (const auto& entry : tasks) sum += entry.second;
@@ -133,15 +181,11 @@ bool work(const Options& options, Records& records) {
     fmt::print("  {:10.2f} us  {:4.1f} %  {}\n", 1e6 * seconds, 100 * seconds / sum, task);
     records.add().set("what", "task").set("task", task).set("elements", elements).set("seconds_per_step", seconds);
   }
-  const double account = repeat(options.repetitions, [&] { take_sample(*model, model->step_size); }).best();
+  const double account = repeat(options.repetitions, [&] { take_sample(begun.model, begun.model.step_size); }).best();
   fmt::print("  {:10.2f} us  energy account and histories of one output\n", 1e6 * account);
   records.add().set("what", "account").set("elements", elements).set("seconds_per_step", account);
 
-  const long count = model->element_count();
-  const bool touched = observer.touching > 0 && std::isfinite(observer.force[2]) && observer.samples > 0;
-  model.reset();
-  if (options.block) time_block(options, count, records);
-  return touched;
+  return observer.touching > 0 && std::isfinite(observer.force[2]) && observer.samples > 0;
 }
 
 }  // namespace
@@ -163,7 +207,7 @@ int main(int argc, char** argv) {
         app.add_option("--settle-steps", options.settle_steps,
                        "steps of relaxation after that, so that the block is about as large as under the load");
         app.add_flag("--settle", options.settle, "settle wholly, as the case does, instead");
-        app.add_flag("!--no-block", options.block, "leave out the block of as many elements");
+        app.add_flag("!--no-block", options.with_block, "leave out the block of as many elements");
         app.add_option("--set", options.overrides, "section.key=value in place of what the case says; may be repeated")
             ->allow_extra_args(false);
       },

@@ -119,7 +119,9 @@ TEST_CASE("the global step is the true limit: calm at 0.99 of it, not at 1.03, a
     const StableStep& stable = model.stable_step;
     INFO(divisions[0] << " x " << divisions[1] << " x " << divisions[2] << ": " << stable.global / stable.elements);
     CHECK_THAT(stable.global / stable.elements, WithinRel(limit, 0.02));
-    CHECK(stable.global >= stable.eigenvalue);
+    // A lone cube has but its own frequency: the same number found in two ways, each rounded.
+    INFO("above the eigenvalue's by " << stable.global / stable.eigenvalue - 1);
+    CHECK(stable.global >= (1 - 1e-12) * stable.eigenvalue);
     CHECK(largest_speed_in_run(model, 20000) < 0.01);
 
     Model beyond;

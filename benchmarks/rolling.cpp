@@ -115,6 +115,9 @@ Timings time_in_turn(const Options& options, Model& wheel, Observer& observer, L
     timings.loop.seconds.push_back(seconds_of([&] { loop.steps(options.steps); }));
     if (block != nullptr) timings.block.seconds.push_back(seconds_of([&] { block->loop->steps(options.steps); }));
   }
+  // The last step is sampled.
+  while (run.go_on()) {
+  }
   return timings;
 }
 

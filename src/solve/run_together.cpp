@@ -2,6 +2,8 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "kernels/support/meanwhile.hpp"
 #include "solve/launch_graph.hpp"
@@ -38,75 +40,111 @@ long steps_apart(const std::vector<EnsembleMember>& members) {
 /// s, after which the results of who has ended are surely written: before, all others would wait for that.
 constexpr double until_written = 1;
 
-}  // namespace
-
-std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
-  std::vector<RunOutcome> outcomes(members.size());
-  const std::vector<ExecutionSpace> spaces = separate_spaces(members.size());
-  std::vector<std::unique_ptr<TimeLoop>> loops(members.size());
-  const auto unless_it_fails = [&](std::size_t m, const auto& step) {
-    try {
-      step();
-    } catch (const std::exception& error) {
-      outcomes[m].error = error.what();
-      loops[m].reset();
-    }
-  };
-  for (std::size_t m = 0; m < members.size(); ++m)
-    unless_it_fails(m, [&] {
-      launch_whole(*members[m].model);
-      loops[m] = std::make_unique<TimeLoop>(*members[m].model, members[m].observers, members[m].settled,
-                                            members[m].keeping, &spaces[m]);
-    });
-  const auto end = [&](std::size_t m) {
-    unless_it_fails(m, [&] {
-      outcomes[m].summary = loops[m]->summary();
-      loops[m].reset();
-    });
-  };
-  const auto take_turn = [&](std::size_t m, int most) {
-    unless_it_fails(m, [&] {
-      for (int k = 0; k < most && !loops[m]->busy() && loops[m]->go_on(); ++k) {
-      }
-    });
-  };
-  std::vector<long> first_step;
-  for (const EnsembleMember& member : members) first_step.push_back(member.model->step);
-  const auto steps_taken = [&](std::size_t m) { return members[m].model->step - first_step[m]; };
-  const long apart = steps_apart(members);
-  const auto waits_to_begin = [&](std::size_t m) {
-    return m > 0 && steps_taken(m) == 0 && loops[m - 1] && !loops[m - 1]->has_ended() && steps_taken(m - 1) < apart;
-  };
-  // While one waits for the device, in a search for its step or an output, others go on. A search waits for its turn.
-  std::size_t whose_turn = 0, of_others = 0;
-  const Meanwhile others_go_on([&] {
-    for (std::size_t tried = 0; tried < members.size(); ++tried) {
-      of_others = (of_others + 1) % members.size();
-      const auto& loop = loops[of_others];
-      if (of_others == whose_turn || !loop || loop->has_ended() || loop->busy() || loop->may_search() ||
-          waits_to_begin(of_others))
-        continue;
-      return take_turn(of_others, 1);
-    }
-  });
-  for (bool any = true; any;) {
-    any = false;
+/// The members' loops, of which each takes its turn.
+class Turns {
+ public:
+  explicit Turns(const std::vector<EnsembleMember>& members)
+      : members_(members),
+        spaces_(separate_spaces(members.size())),
+        outcomes_(members.size()),
+        loops_(members.size()),
+        apart_(steps_apart(members)) {
     for (std::size_t m = 0; m < members.size(); ++m) {
-      if (!loops[m]) continue;
-      whose_turn = m;
-      if (loops[m]->has_ended()) {
-        if (loops[m]->seconds_since_end() > until_written) end(m);
+      const EnsembleMember& member = members[m];
+      unless_it_fails(m, [&] {
+        launch_whole(*member.model);
+        loops_[m] =
+            std::make_unique<TimeLoop>(*member.model, member.observers, member.settled, member.keeping, &spaces_[m]);
+      });
+      first_step_.push_back(member.model->step);
+    }
+  }
+
+  /// A round of turns. @return false: all have ended
+  bool go_round() {
+    bool any = false;
+    for (std::size_t m = 0; m < loops_.size(); ++m) {
+      if (!loops_[m]) continue;
+      whose_turn_ = m;
+      if (loops_[m]->has_ended()) {
+        if (loops_[m]->seconds_since_end() > until_written) end(m);
         continue;
       }
       any = true;
       if (!waits_to_begin(m)) take_turn(m, most_in_turn);
     }
+    return any;
   }
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    whose_turn = m;
-    if (loops[m]) end(m);
+
+  /// While one waits for the device, in a search for its step or an output: a step of another. A search waits for its
+  /// turn.
+  void go_on_meanwhile() {
+    for (std::size_t tried = 0; tried < loops_.size(); ++tried) {
+      of_others_ = (of_others_ + 1) % loops_.size();
+      const auto& loop = loops_[of_others_];
+      if (of_others_ == whose_turn_ || !loop || loop->has_ended() || loop->busy() || loop->may_search() ||
+          waits_to_begin(of_others_))
+        continue;
+      return take_turn(of_others_, 1);
+    }
   }
-  return outcomes;
+
+  std::vector<RunOutcome> outcomes() {
+    for (std::size_t m = 0; m < loops_.size(); ++m) {
+      whose_turn_ = m;
+      if (loops_[m]) end(m);
+    }
+    return std::move(outcomes_);
+  }
+
+ private:
+  template <class Step>
+  void unless_it_fails(std::size_t m, const Step& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      outcomes_[m].error = error.what();
+      loops_[m].reset();
+    }
+  }
+
+  void take_turn(std::size_t m, int most) {
+    unless_it_fails(m, [&] {
+      for (int k = 0; k < most && !loops_[m]->busy() && loops_[m]->go_on(); ++k) {
+      }
+    });
+  }
+
+  void end(std::size_t m) {
+    unless_it_fails(m, [&] {
+      outcomes_[m].summary = loops_[m]->summary();
+      loops_[m].reset();
+    });
+  }
+
+  long steps_taken(std::size_t m) const { return members_[m].model->step - first_step_[m]; }
+
+  bool waits_to_begin(std::size_t m) const {
+    return m > 0 && steps_taken(m) == 0 && loops_[m - 1] && !loops_[m - 1]->has_ended() && steps_taken(m - 1) < apart_;
+  }
+
+  const std::vector<EnsembleMember>& members_;
+  const std::vector<ExecutionSpace> spaces_;
+  std::vector<RunOutcome> outcomes_;
+  std::vector<std::unique_ptr<TimeLoop>> loops_;  ///< null: failed, or ended and written
+  const long apart_;                              ///< steps
+  std::vector<long> first_step_;
+  std::size_t whose_turn_ = 0, of_others_ = 0;
+};
+
+}  // namespace
+
+std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
+  Turns turns(members);
+  const Meanwhile others_go_on([&turns] { turns.go_on_meanwhile(); });
+  while (turns.go_round()) {
+  }
+  return turns.outcomes();
 }
 
 }  // namespace railwave

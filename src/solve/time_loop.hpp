@@ -45,9 +45,9 @@ struct RunOutcome {
 };
 
 /// Runs several models, each with its own clock, observers and end: it becomes what it would by itself, bit for bit,
-/// and what goes wrong with one ends no other. They settle one after the other; then each takes a step, or the steps of
-/// a graph, in turn. On a GPU graphs of different members run side by side, each in an order of its own, and who has
-/// two at work or waits for a sample is passed over.
+/// and what goes wrong with one ends no other. They settle one after the other; then they begin, each some steps after
+/// the one before it, and take a step, or the steps of a graph, in turn. On a GPU graphs of different members run side
+/// by side, each in an order of its own, and who has some at work or waits for a sample is passed over.
 std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members);
 
 /// Asks the running time loop to stop after the present step. Safe in a signal handler.

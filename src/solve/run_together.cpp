@@ -81,11 +81,9 @@ class Turns {
   void go_on_meanwhile() {
     for (std::size_t tried = 0; tried < loops_.size(); ++tried) {
       of_others_ = (of_others_ + 1) % loops_.size();
-      const auto& loop = loops_[of_others_];
-      if (of_others_ == whose_turn_ || !loop || loop->has_ended() || loop->busy() || loop->may_search() ||
-          waits_to_begin(of_others_))
-        continue;
-      return take_turn(of_others_, 1);
+      if (of_others_ == whose_turn_ || !under_way(of_others_) || waits_to_begin(of_others_)) continue;
+      const TimeLoop& loop = *loops_[of_others_];
+      if (!loop.busy() && !loop.may_search()) return take_turn(of_others_, 1);
     }
   }
 
@@ -124,8 +122,10 @@ class Turns {
 
   long steps_taken(std::size_t m) const { return members_[m].model->step - first_step_[m]; }
 
+  bool under_way(std::size_t m) const { return loops_[m] && !loops_[m]->has_ended(); }
+
   bool waits_to_begin(std::size_t m) const {
-    return m > 0 && steps_taken(m) == 0 && loops_[m - 1] && !loops_[m - 1]->has_ended() && steps_taken(m - 1) < apart_;
+    return m > 0 && steps_taken(m) == 0 && under_way(m - 1) && steps_taken(m - 1) < apart_;
   }
 
   const std::vector<EnsembleMember>& members_;

@@ -59,7 +59,7 @@ class TimeLoop {
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), order_, leader_ ? &leader_->exchange() : nullptr),
         sampled_forces_(model, {plans_.of(StepKind::sampled).forces, energy_sum_tasks(model)}, order_),
-        samples_may_be_late_(!order_.own() && !leader_ && recording_.most() > 0 &&
+        answers_may_be_late_(!order_.own() && !leader_ && recording_.most() > 0 &&
                              std::none_of(observers.begin(), observers.end(),
                                           [](const RunObserver* one) { return one->looks_at_model(); })) {
     if (keeping.from) take_up(*keeping.from);
@@ -74,12 +74,12 @@ class TimeLoop {
     if (!begun_) since_first_step_.restart();
     begun_ = true;
     // What the monitor finds in it decides what is due.
-    if (model_.step % Monitor::steps_when_odd == 0) finish_late_sample();
+    if (model_.step % Monitor::steps_when_odd == 0 || !quiet(model_.step)) finish_late();
     begin_step();
     checkpoint_if_due();
     plan_step();
     if (leader_ ? take_shared_steps() : take_recorded_steps()) return true;
-    finish_late_sample();
+    finish_late();
     if (order_.own())
       order_.enter();
     else
@@ -90,7 +90,7 @@ class TimeLoop {
       plans_.compute_forces(in_order(), sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     wait_for_other_ranks();
     if (late_)
-      late_sample_.begin(model_, model_.step_size, {output_due_, energies_summed});
+      ask_late(energies_summed);
     else if (!leader_)
       ask(energies_summed);
     return order_.own() || finish_step();
@@ -98,7 +98,7 @@ class TimeLoop {
 
   /// The present state, between two steps.
   RunState state() {
-    finish_late_sample();
+    finish_late();
     recording_.finish();
     if (leader_) leader_->gather();
     RunState state;
@@ -208,10 +208,7 @@ class TimeLoop {
   /// The size of this step, and whether its instant is sampled.
   void plan_step() {
     const double size_before = model_.step_size;
-    if (memory_.control.looks_at_model()) {
-      finish_late_sample();  // it has the place of sums that are wanted now
-      recording_.finish();
-    }
+    if (memory_.control.looks_at_model()) recording_.finish();
     memory_.control.check_elements();
     if (leader_ && memory_.control.due()) leader_->gather();
     if (memory_.control.renew()) memory_.due.step_changed(size_before);
@@ -224,10 +221,10 @@ class TimeLoop {
     sampled_ = output_due_ || first_ || monitor_due;
     const bool plain = !stopping_ && !summary_.fault && !first_;
     only_fields_ = plain && !monitor_due && fields_due_.any() && !memory_.due.history();
-    late_ = sampled_ && plain && samples_may_be_late_ && !memory_.due.last() && !fields_due_.any() &&
-            !memory_.monitor.looks_at_model(model_.step);
-    if (late_) return late_sample_.announce();
+    const bool asked = sampled_ || memory_.monitor.contact_ends_due(model_.step);
+    late_ = asked && plain && answers_may_be_late_ && !memory_.due.last() && !fields_due_.any();
     if (!sampled_ || order_.own()) return;
+    if (late_) return late_sample_.announce();
     wait_for_other_ranks();
     recording_.finish();
     timing().begin();
@@ -243,12 +240,23 @@ class TimeLoop {
     return instant;
   }
 
+  SampleUnderWay::What sample_wanted(bool energies_summed) {
+    return {output_due_, energies_summed, memory_.monitor.part_energies(model_.step)};
+  }
+
+  /// Of this instant, what finish_late() needs.
+  void ask_late(bool energies_summed) {
+    late_of_ = model_.step;
+    memory_.monitor.ask(order_.space(), samples_energies());
+    if (sampled_) late_sample_.begin(model_, model_.step_size, sample_wanted(energies_summed));
+  }
+
   /// Of this instant, what finish_step() needs.
   void ask(bool energies_summed) {
     memory_.monitor.ask(order_.space(), samples_energies());
     if (samples_energies()) {
-      const SampleUnderWay::What what{output_due_, energies_summed, memory_.monitor.part_energies(model_.step)};
-      sample_ = std::make_unique<SampleUnderWay>(model_, model_.step_size, what, order_.space());
+      sample_ =
+          std::make_unique<SampleUnderWay>(model_, model_.step_size, sample_wanted(energies_summed), order_.space());
       sample_->send(answered_);
     }
     asked_ = true;
@@ -264,7 +272,7 @@ class TimeLoop {
     std::optional<HistorySample> answer;
     if (sample_) answer = sample_->finish(answered_);  // what a check asks besides would take its place
     sample_.reset();
-    memory_.monitor.check_contact_ends();
+    if (!late_) memory_.monitor.check_contact_ends(model_.step);
     if (sampled_ && !late_) monitor_and_output(std::move(answer));
     if (ends()) {
       ended_ = true;
@@ -274,23 +282,23 @@ class TimeLoop {
     if (leader_) leader_->move(instant_);
     order_.enter();
     plans_.advance(in_order());
-    if (late_) late_sample_.send();
+    if (sampled_ && late_) late_sample_.send();
     end_step();
     return true;
   }
 
   /// Whether nothing but the plan of advancing steps is due at a step to come.
   bool quiet(long step) const {
-    return !memory_.due.any(step) && !memory_.monitor.due(step) && !memory_.control.may_renew(step);
+    return !memory_.due.any(step) && !memory_.monitor.due(step) && !memory_.monitor.contact_ends_due(step) &&
+           !memory_.control.may_renew(step);
   }
 
   /// How many steps from this one on, which is not sampled, nobody looks at. Checks of contacts' ends come between
   /// forces and motion of a step.
   long quiet_steps(long most) const {
+    if (memory_.monitor.contact_ends_due(model_.step)) return 0;
     long steps = 0;
-    while (steps < most && !memory_.monitor.contact_ends_due(model_.step + steps) &&
-           (steps == 0 || quiet(model_.step + steps)))
-      ++steps;
+    while (steps < most && (steps == 0 || quiet(model_.step + steps))) ++steps;
     return steps;
   }
 
@@ -298,22 +306,24 @@ class TimeLoop {
   bool take_recorded_steps() {
     if (sampled_) return false;
     long steps = recording_.most();
-    if (late_sample_.under_way())
-      steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
+    if (late_of_ >= 0) steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
     steps = record_steps(quiet_steps(steps));
     if (steps == 0) return false;
     plans_.advance_clock(instant_, steps);
     end_step();
-    finish_late_sample();
+    finish_late();
     return true;
   }
 
-  /// Before any step that may be sampled because of it. Should it show that the run must stop, then it stops at the
-  /// next step.
-  void finish_late_sample() {
-    if (!late_sample_.under_way()) return;
+  /// Takes what was asked late, before any step at which something is due: what it shows may make more of it due.
+  /// Should it show that the run must stop, then it stops at the next step.
+  void finish_late() {
+    if (late_of_ < 0) return;
+    const long step = std::exchange(late_of_, -1);
+    if (!late_sample_.under_way()) return memory_.monitor.check_contact_ends(step);
     const bool is_history = late_sample_.is_history();
     HistorySample sample = late_sample_.finish(is_history ? timing_.output_steps : timing_.monitor_steps);
+    memory_.monitor.check_contact_ends(step);
     watch(sample);
     for (RunObserver* observer : observers_) {
       if (is_history) observer->history(model_, sample);
@@ -338,7 +348,7 @@ class TimeLoop {
       } else {
         plans_.compute_forces(instant_, StepKind::advancing);
         if (check) wait_for_other_ranks();
-        memory_.monitor.check_contact_ends();
+        memory_.monitor.check_contact_ends(model_.step);
         plans_.advance(instant_);
       }
       end_step();
@@ -443,8 +453,9 @@ class TimeLoop {
   StepPlans plans_;
   StepRecording recording_;
   StepRecording sampled_forces_;  ///< with the sums of energies
-  const bool samples_may_be_late_;
+  const bool answers_may_be_late_;
   LateSample late_sample_;
+  long late_of_ = -1;  ///< the step of what was asked late, and is to be taken; -1: nothing
   Milestone answered_;
   std::unique_ptr<SampleUnderWay> sample_;  ///< that was asked for
   bool asked_ = false;                      ///< and the step is to be finished
@@ -458,7 +469,7 @@ class TimeLoop {
   bool output_due_ = false;   ///< histories or fields
   bool only_fields_ = false;  ///< and nothing else of a sampled instant
   bool sampled_ = false;      ///< the instant's forces and energies are sampled
-  bool late_ = false;         ///< and may come late
+  bool late_ = false;         ///< what this step asks, if only for contacts' ends, may come late
 };
 
 }  // namespace railwave

@@ -97,12 +97,33 @@ TEST_CASE("histories that come late are those that are waited for") {
     scene.solver.renew_steps = 7;
   }
   SECTION("odd energies, of which the monitor warns") { scene.monitor.energy_error = 1e-14; }
+  SECTION("what checks of the whole model warn of") {
+    scene.monitor.speed = 0.05;
+    scene.monitor.contact_edge = 1e-9;
+  }
   const Listened waited = listen(scene, true), late = listen(scene, false);
   CHECK(late.histories == waited.histories);
   CHECK(late.histories.size() >= 40);
   CHECK(late.end.position == waited.end.position);
   CHECK(late.end.velocity == waited.end.velocity);
   CHECK(late.summary.warnings == waited.summary.warnings);
+  CHECK(late.summary.account == waited.summary.account);
+  CHECK(late.summary.worst_values == waited.summary.worst_values);
+  CHECK(!late.summary.worst_values.empty());
+}
+
+TEST_CASE("a check of the whole model that comes late stops a run soon") {
+  if (!has_launch_graphs) SKIP("the host waits for all checks here");
+  scene::Scene scene = written_blocks();
+  scene.monitor.speed = 0.05;
+  scene.monitor.fatal_speed = 0.08;
+  const Listened waited = listen(scene, true), late = listen(scene, false);
+  REQUIRE(waited.summary.fault.has_value());
+  REQUIRE(late.summary.fault.has_value());
+  CHECK(late.summary.fault->kind == FaultKind::speed);
+  CHECK(late.summary.fault->step == waited.summary.fault->step);
+  CHECK(late.summary.fault->value == waited.summary.fault->value);
+  CHECK(late.end.steps <= late.summary.fault->step + 33);
 }
 
 TEST_CASE("a history that comes late stops a run soon") {

@@ -71,9 +71,9 @@ Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const
   if (!contacts.empty()) ends_ = std::make_unique<EndMonitor>(assembled, nodal, contacts, others);
 }
 
-void Monitor::check_contact_ends() {
+void Monitor::check_contact_ends(long step) {
   static_assert(EndMonitor::steps_between % (1L << (most_levels - 1)) == 0);
-  if (!contact_ends_due(nodal_.step) || whole_due(nodal_.step)) return;
+  if (!contact_ends_due(step) || whole_due(step)) return;
   ends_->check(false);
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];
@@ -103,7 +103,7 @@ bool Monitor::whole_due(long step) const {
   if (regular(step)) return true;
   if (!arrays_) return false;
   const bool power_of_two = (step & (step - 1)) == 0;
-  return wants_check_ || (step < most_between_checks && power_of_two) || (odd_ && step % steps_when_odd == 0);
+  return (step < most_between_checks && power_of_two) || ((odd_ || wants_check_) && step % steps_when_odd == 0);
 }
 
 bool Monitor::regular(long step) const {

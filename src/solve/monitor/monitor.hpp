@@ -41,25 +41,27 @@ class Monitor {
           SampledRanks* others = nullptr);
 
   /// Whether a check is due at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every
-  /// 4096; at the first powers of two; every 32 while something odd grows; after the ends of contacts were checked and
-  /// one had come to an end of its surface; and at the energies alone 24 times at least, but no oftener than every 32
+  /// 4096; at the first powers of two; every 32 while something odd grows, or where a check of contacts' ends has found
+  /// one at an end of its surface; and at the energies alone 24 times at least, but no oftener than every 32
   /// steps, and 48 to 96 times in a long run.
   bool due(long step) const;
 
-  /// Whether it looks at more of this step's instant than a sample.
-  bool looks_at_model(long step) const { return whole_due(step) || contact_ends_due(step); }
-
-  /// From a sample that shows something odd to the check that is due for that, at the steps that are multiples of it.
+  /// From what shows something odd to the check that is due for that, at the steps that are multiples of it.
   static constexpr long steps_when_odd = 32;
 
   /// Where a sample's part energies may be wanted, as a check of contacts' ends at the same step can ask for a whole
   /// one; null: nowhere.
-  std::vector<PartEnergy>* part_energies(long step) { return arrays_ && looks_at_model(step) ? &by_part_ : nullptr; }
+  std::vector<PartEnergy>* part_energies(long step) {
+    return arrays_ && (whole_due(step) || contact_ends_due(step)) ? &by_part_ : nullptr;
+  }
 
   /// Checks the ends of contact surfaces, where it is time: every 256 steps, after the forces. That costs much less
-  /// than a check of the model, and the step stays as any. Where a check of the model is due, that has them.
-  void check_contact_ends();
-  /// Before the checks of this step: asks the device for all that they have of it, so that it is waited for once.
+  /// than a check of the model, and the step stays as any. Where a check of the model is due, that has them. What was
+  /// asked for may be taken some steps later.
+  /// @param step of which it is
+  void check_contact_ends(long step);
+  /// Before the checks of this step: asks the device for all that they have of it, so that it is waited for once, or
+  /// later.
   /// @param order in which the launches come
   /// @param sampled whether check() will get a sample of this step
   void ask(const ExecutionSpace& order, bool sampled) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact/contact_projection.hpp"
+#include "kernels/support/team.hpp"
 
 namespace railwave {
 
@@ -42,38 +43,47 @@ struct BoxSegments {
   }
 };
 
-/// Boxes around so many smaller ones each.
-struct BoxAround {
-  Array<const RoundedBox*> smaller;
-  int count;
-  Array<RoundedBox*> around;
+/// Leaves around the segments' boxes, branches around leaves, boughs around branches: by one team, as a GPU takes
+/// longer for three launches than for all that they do.
+struct EncloseBoxes {
+  SegmentBoxes boxes;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    const int first = n * count, end = first + count, all = static_cast<int>(smaller.extent(0));
-    RoundedBox box = smaller(first);
-    for (int i = first + 1; i < end && i < all; ++i) {
-      const RoundedBox one = smaller(i);
-      for (int c = 0; c < 3; ++c) {
-        box.low[c] = std::fmin(box.low[c], one.low[c]);
-        box.high[c] = std::fmax(box.high[c], one.high[c]);
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
+    enclose<SegmentBoxes::leaf_size>(team, boxes.segment, boxes.leaf);
+    enclose<SegmentBoxes::branch_size>(team, boxes.leaf, boxes.branch);
+    enclose<SegmentBoxes::bough_size>(team, boxes.branch, boxes.bough);
+  }
+
+ private:
+  template <int of_each>
+  KOKKOS_INLINE_FUNCTION static void enclose(const Team::member_type& team, const Array<RoundedBox*>& smaller,
+                                             const Array<RoundedBox*>& around) {
+    const int count = static_cast<int>(around.extent(0)), all = static_cast<int>(smaller.extent(0));
+    for (int n = team.team_rank(); n < count; n += team.team_size()) {
+      const int first = n * of_each;
+      RoundedBox box = smaller(first);
+      for (int i = first + 1; i < first + of_each && i < all; ++i) {
+        const RoundedBox one = smaller(i);
+        for (int c = 0; c < 3; ++c) {
+          box.low[c] = std::fmin(box.low[c], one.low[c]);
+          box.high[c] = std::fmax(box.high[c], one.high[c]);
+        }
       }
+      around(n) = box;
     }
-    around(n) = box;
+    team.team_barrier();
   }
 };
 
 /// @param space in whose order, @param interval s, @param sudden m, until the next check
-inline void update_boxes(const ExecutionSpace& space, const ContactProjection& surface,
-                         const Array<const double* [3]>& velocity, double interval, double sudden) {
-  const SegmentBoxes& boxes = surface.contact.boxes;
-  Kokkos::parallel_for("segment_boxes", SpreadRange(space, 0, boxes.segment_count()),
+/// @param enclose EncloseBoxes, or what does the same and something else
+template <class Enclose>
+void update_boxes(const ExecutionSpace& space, const ContactProjection& surface,
+                  const Array<const double* [3]>& velocity, double interval, double sudden, const Enclose& enclose) {
+  constexpr int threads = on_device ? 512 : 1;
+  Kokkos::parallel_for("segment_boxes", SpreadRange(space, 0, surface.contact.boxes.segment_count()),
                        BoxSegments{surface, velocity, interval, sudden});
-  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()),
-                       BoxAround{boxes.segment, SegmentBoxes::leaf_size, boxes.leaf});
-  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()),
-                       BoxAround{boxes.leaf, SegmentBoxes::branch_size, boxes.branch});
-  Kokkos::parallel_for("bough_boxes", SpreadRange(space, 0, boxes.bough_count()),
-                       BoxAround{boxes.branch, SegmentBoxes::bough_size, boxes.bough});
+  Kokkos::parallel_for("boxes_around", Kokkos::TeamPolicy<ExecutionSpace, AsArgument>(space, 1, threads), enclose);
 }
 
 /// A place between numbers of single precision, in which a GPU has a box's distance with a third of the instructions.

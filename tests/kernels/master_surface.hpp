@@ -36,7 +36,7 @@ inline ContactSearch search_on(const std::vector<Point>& nodes, const std::vecto
   search.contact.segment_of_node = to_device("segment of node", around);
   search.position = to_device("position", nodes);
   const Array<double* [3]> at_rest("velocity", nodes.size());
-  update_boxes(ExecutionSpace(), search, at_rest, 0, 0);
+  update_boxes(ExecutionSpace(), search, at_rest, 0, 0, EncloseBoxes{search.contact.boxes});
   return search;
 }
 

@@ -9,6 +9,7 @@
 #include "kernels/support/milestone.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/assembly.hpp"
+#include "model/contact/surface_motion.hpp"
 
 namespace railwave {
 
@@ -23,7 +24,8 @@ struct ContactPair {
   long next_near_check = -1;                              ///< step at which its nodes that can touch are selected again
   bool boxed = false;                                     ///< the master's boxes hold until then
   long layouts = 0;                                       ///< how often the window was built
-  long checks = 0;                                        ///< how often it was checked, with the host waiting
+  long checks = 0;                                        ///< how often it was checked
+  AskedMotion asked_motion;                               ///< since then, for its next check
   bool loaded = false;                                    ///< loads, ties or non-reflecting ends act on its nodes
   bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;     ///< no other forces than the pair's on slaves reach the master's nodes

@@ -26,6 +26,10 @@ void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   archive.value(of + "answer_due", pair.answer_due);
   archive.value(of + "layouts", pair.layouts);
   archive.value(of + "looks", pair.checks);
+  SurfaceMotion& motion = pair.asked_motion.last;
+  archive.value(of + "motion_step", motion.step);
+  archive.value(of + "motion_moved", motion.moved);
+  archive.value(of + "motion_speed", motion.speed);
 }
 
 template <class Archive>
@@ -76,6 +80,7 @@ void archive(Archive& archive_, Model& model) {
 }  // namespace
 
 void save_model_state(Model& model, RunState& state) {
+  for (ContactPair& pair : model.contacts) take_motion(pair);
   StateSaver saver(state);
   archive(saver, model);
   state.step = model.step;
@@ -86,7 +91,10 @@ void save_model_state(Model& model, RunState& state) {
 void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
   archive(restorer, model);
-  for (ContactPair& pair : model.contacts) pair.uncounted_of = -1;
+  for (ContactPair& pair : model.contacts) {
+    pair.uncounted_of = -1;
+    pair.asked_motion.under_way = false;
+  }
   keep_choice(model);
   if (model.relative.begun) place_frames(model.elements, model);
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "kernels/contact/near_nodes.hpp"
+#include "model/contact/surface_motion.hpp"
 #include "model/contact/surface_rows.hpp"
 #include "model/lent_array.hpp"
 #include "solve/tasks.hpp"
@@ -81,71 +82,6 @@ class CellGrid {
   std::unordered_map<long, std::vector<int>> cells_;
 };
 
-/// Of some nodes, at most.
-struct SquaredMotion {
-  double moved;  ///< m2, from where they were
-  double speed;  ///< m2/s2
-};
-
-/// The largest motion of a surface's nodes, in blocks.
-struct SurfaceMotion {
-  static constexpr int block = 16;
-  Array<const double*[3]> position, velocity;
-  Array<const int*> nodes;
-  Array<const double* [3]> before;
-  Array<SquaredMotion*> largest;
-  int first_block;
-
-  /// A NaN counts as far: kept as NaN it would be lost at the next comparison.
-  KOKKOS_INLINE_FUNCTION static void raise(double& value, double other) {
-    if (!(other <= value)) value = other < 1e300 ? other : 1e300;
-  }
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
-    double moved = 0, speed = 0;
-    const int count = static_cast<int>(nodes.extent(0)), end = (b + 1) * block < count ? (b + 1) * block : count;
-    for (int i = b * block; i < end; ++i) {
-      const Vector3 way = row(position, nodes(i)) - row(before, i), v = row(velocity, nodes(i));
-      raise(moved, dot(way, way));
-      raise(speed, dot(v, v));
-    }
-    largest(first_block + b) = {moved, speed};
-  }
-};
-
-struct Motion {
-  double moved = 0;  ///< m, at most of the slave's nodes and of the master's, added
-  double speed = 0;  ///< m/s, the same
-};
-
-/// The only place where the host waits for the device.
-Motion measure(const NodeArrays& nodes, const ContactPair& pair) {
-  const auto blocks = [](const Array<int*>& of_surface) {
-    return static_cast<int>((of_surface.extent(0) + SurfaceMotion::block - 1) / SurfaceMotion::block);
-  };
-  const ContactArrays& contact = pair.arrays;
-  const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
-  const LentArray<SquaredMotion*> largest(slave_blocks + master_blocks);
-  Kokkos::parallel_for(
-      "slave_motion", Range(0, slave_blocks),
-      SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, *largest, 0});
-  Kokkos::parallel_for("master_motion", Range(0, master_blocks),
-                       SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout,
-                                     *largest, slave_blocks});
-  const std::vector<SquaredMotion> host = to_vector(*largest);
-  Motion motion;
-  for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
-    double moved = 0, speed = 0;
-    for (int b = begin; b < end; ++b) {
-      moved = std::max(moved, host[b].moved);
-      speed = std::max(speed, host[b].speed);
-    }
-    motion.moved += std::sqrt(moved);
-    motion.speed += std::sqrt(speed);
-  }
-  return motion;
-}
-
 /// A node that leaves the window is apart, and its arrays must say so; one that enters needs a place to begin at.
 struct EnterOrLeave {
   ContactArrays contact;
@@ -213,23 +149,37 @@ void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
                        EnterOrLeave{contact, to_device("inside window", inside), to_device("nearest", nearest)});
 }
 
+/// In the default space, after what has been launched in another and before what will be.
+void lay_out_window_between(const ExecutionSpace& space, const NodeArrays& nodes, ContactPair& pair, double margin) {
+  wait_for(space);
+  lay_out_window(nodes, pair, margin);
+  ++pair.layouts;
+  wait_for(ExecutionSpace());
+}
+
 /// Whether the window was laid out anew.
-bool renew_window(const NodalState& nodal, ContactPair& pair, double step, double sudden) {
+bool renew_window(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step, double sudden) {
   // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
   // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
   ++pair.checks;
   const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
-  if (!laid_out) lay_out_window(nodal.nodes, pair, margin);
-  Motion motion = measure(nodal.nodes, pair);
-  const auto steps_left = [&] { return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden); };
+  if (!laid_out) lay_out_window_between(space, nodal.nodes, pair, margin);
+  if (!laid_out || !pair.asked_motion.is_of(nodal.step, ContactPair::steps_between_near_checks))
+    ask_for_motion(space, nodal.nodes, pair, nodal.step);
+  SurfaceMotion motion = take_motion(pair);
+  const auto steps_left = [&] {
+    const auto since = static_cast<double>(nodal.step - motion.step);
+    return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden) - since;
+  };
   bool anew = !laid_out;
   if (laid_out && steps_left() < least_steps_between_checks && motion.moved < 1e100) {
-    lay_out_window(nodal.nodes, pair, margin);
+    lay_out_window_between(space, nodal.nodes, pair, margin);
     motion.moved = 0;
+    motion.step = nodal.step;
+    pair.asked_motion.last.step = -1;
     anew = true;
   }
-  if (anew) ++pair.layouts;
   pair.next_check = nodal.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_checks)));
   return anew;
 }
@@ -253,8 +203,12 @@ void end_rests(ContactWindow& window) {
 
 /// Before nodes are sorted. One launch, as a GPU takes as long for several of these as for a step's nodes.
 struct BeginNearNodes {
+  EncloseBoxes enclose;
   Array<int*> near_count, uncounted;
-  KOKKOS_INLINE_FUNCTION void operator()(const int) const {
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
+    enclose(team);
+    if (team.team_rank() > 0) return;
     near_count(0) = 0;
     uncounted(0) = 0;
   }
@@ -266,15 +220,6 @@ struct SendNumber {
   PinnedArray<int*> sent;
   KOKKOS_INLINE_FUNCTION void operator()(const int) const { sent(0) = number(0); }
 };
-
-/// In the default space, after what has been launched in another and before what will be.
-bool renew_window_between(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step,
-                          double sudden) {
-  wait_for(space);
-  const bool anew = renew_window(nodal, pair, step, sudden);
-  wait_for(ExecutionSpace());
-  return anew;
-}
 
 /// m in a step.
 double sudden_motion(const scene::Scene& scene, const ContactPair& pair, double step, StepKind kind) {
@@ -304,14 +249,18 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
                  (near_check ? steps : pair.next_near_check - nodal.step) + (counts ? ContactPair::steps_to_answer : 0);
   const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = check && renew_window_between(space, nodal, pair, step, sudden);
+  const bool laid_out = check && renew_window(space, nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
-  if (near_check || !pair.boxed) update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then);
+  const auto update = [&](const auto& enclose) {
+    update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then, enclose);
+  };
+  const EncloseBoxes enclose{pair.arrays.boxes};
   FindNearNodes find{
       search,      pair.window, nodal.nodes.velocity, interval, sudden_until_then, first, first || laid_out || wake,
       pair.missed, {},          pair.uncounted,       {}};
   if (rest) find.rest = {static_cast<int>(since), static_cast<double>(ahead) / NearRest::span};
   if (!near_check) {
+    if (!pair.boxed) update(enclose);
     // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
     if (!pair.boxed && !near_nodes_rest) end_rests(pair.window);
     pair.boxed = true;
@@ -324,10 +273,11 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   pair.next_near_check = nodal.step - nodal.step % steps + steps;
   pair.answer_due = pair.answer_of(nodal.step);
   pair.near_checked_at = nodal.step;
-  Kokkos::parallel_for("begin_near_nodes", SpreadRange(space, 0, 1),
-                       BeginNearNodes{pair.window.near_count, pair.uncounted});
+  update(BeginNearNodes{enclose, pair.window.near_count, pair.uncounted});
   find.counted = pair.counted;
   search_parallel_for(space, "near_nodes", pair.window.count, find);
+  // The window's check that comes with the next of these takes it, without waiting for the device.
+  if (!settling && pair.next_check <= pair.next_near_check) ask_for_motion(space, nodal.nodes, pair, nodal.step);
   if (!counts) return;
   Kokkos::parallel_for("send_number", SpreadRange(space, 0, 1), SendNumber{pair.uncounted, pair.uncounted_sent});
   pair.uncounted_arrives.put(space);

@@ -34,13 +34,22 @@ int most_steps(const RowExchange* exchange) {
   return chosen != nullptr ? std::clamp(std::atoi(chosen), 0, 64) : default_steps;
 }
 
-/// Copies a graph's values to where its launches read them.
+/// Copies a graph's values to where its launches read them. Recorded in a graph it brings those of the next one.
 template <class Value>
 struct TakeStepValues {
   Array<const Value*> table;
   Array<Value*> taken;
-  int first;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { taken(i) = table(first + i); }
+  Array<int*> row;  ///< of the table, where what is taken begins: each thread has its own
+  int steps;        ///< from there, or from the table's beginning, to where it is to begin
+  bool from_there;
+  int width;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    row(i) = from_there ? row(i) + steps : steps;
+    // Behind the table's end is nothing, and what comes then is taken anew.
+    const int place = row(i) * width + i;
+    if (place < static_cast<int>(table.extent(0))) taken(i) = table(place);
+  }
 };
 
 /// One kind of values that follow from a step's time, `width` of them a step, for the steps to come.
@@ -51,44 +60,51 @@ class StepValues {
       : width_(width),
         table_("values of steps", width * (steps_of_table + steps_of_graph)),
         host_("values of steps, on the host", table_.extent(0)),
-        taken_("values of a graph", width * steps_of_graph) {}
+        taken_("values of a graph", width * steps_of_graph),
+        row_("first row of a graph's values", taken_.extent(0)) {}
+
+  bool any() const { return width_ > 0; }
 
   const Value* of(int step_of_graph) const { return width_ == 0 ? nullptr : taken_.data() + step_of_graph * width_; }
 
   void forget() { step_size_ = 0; }
 
-  /// Whether those of so many steps are at hand, should the step size be as it was.
-  bool has(long step, long steps) const {
-    return width_ == 0 || (step_size_ > 0 && step >= first_ && step + steps <= first_ + steps_of_table);
-  }
-
-  /// Brings the values of some steps in place, in the order of a space.
-  /// @param wait for the device
+  /// Brings the values of some steps in place, in the order of a space, if the graph before has not.
   /// @param value of a step, of the given number
-  template <class Wait, class ValueAt>
-  void take(const ExecutionSpace& space, const Wait& wait, long step, long steps, double step_size,
-            const ValueAt& value) {
+  template <class ValueAt>
+  void take(const ExecutionSpace& space, long step, long steps, double step_size, const ValueAt& value) {
     if (width_ == 0) return;
-    if (!has(step, steps) || step_size != step_size_) {
-      wait();
+    const bool at_hand = step_size == step_size_ && step >= first_ && step + steps <= first_ + steps_of_table;
+    if (!at_hand) {
+      sent_.wait();
       fill(step, step_size, value);
       Kokkos::deep_copy(space, table_, host_);
+      sent_.put(space);
     }
-    if (constant_ && in_place_) return;
-    const int all = static_cast<int>(constant_ ? taken_.extent(0) : steps * width_);
-    Kokkos::parallel_for("step_values", Range(space, 0, all),
-                         TakeStepValues<Value>{table_, taken_, static_cast<int>(step - first_) * width_});
-    in_place_ = true;
+    if (taken_from_ == step || (constant_ && taken_from_ >= 0)) return;
+    launch(space, step - first_, false);
+    taken_from_ = step;
   }
+
+  /// Recorded in a graph, where nothing of it reads values any more: takes those of the next one.
+  void take_next(long steps) const { launch(ExecutionSpace(), steps, true); }
+
+  /// A graph with that has been launched.
+  void has_taken_next(long steps) { taken_from_ += steps; }
 
  private:
   static constexpr int steps_of_table = 512;
+
+  void launch(const ExecutionSpace& space, long steps, bool from_there) const {
+    Kokkos::parallel_for("step_values", Range(space, 0, static_cast<int>(taken_.extent(0))),
+                         TakeStepValues<Value>{table_, taken_, row_, static_cast<int>(steps), from_there, width_});
+  }
 
   template <class ValueAt>
   void fill(long step, double step_size, const ValueAt& value) {
     first_ = step;
     step_size_ = step_size;
-    in_place_ = false;
+    taken_from_ = -1;
     constant_ = true;
     const int rows = static_cast<int>(host_.extent(0)) / width_;
     for (int s = 0; s < rows; ++s)
@@ -102,10 +118,13 @@ class StepValues {
   int width_;
   Array<Value*> table_;
   PinnedArray<Value*> host_;
+  Milestone sent_;  ///< the host's values may change
   Array<Value*> taken_;
+  Array<int*> row_;
   long first_ = 0;
+  long taken_from_ = -1;  ///< the step of the first values taken; -1: none of this table
   double step_size_ = 0;  ///< s; 0: nothing is in the table
-  bool constant_ = false, in_place_ = false;
+  bool constant_ = false;
 };
 
 }  // namespace
@@ -208,8 +227,9 @@ struct StepRecording::Recordings {
 
   /// What the next step begins after.
   struct Ends {
-    LaunchGraph::Node tasks;  ///< for all but elements
-    LaunchGraph::Node all;    ///< for elements
+    LaunchGraph::Node tasks;       ///< for all but elements
+    LaunchGraph::Node all;         ///< for elements
+    LaunchGraph::Node own_forces;  ///< for nothing but what changes the values of loads
   };
 
   void run_recordable(const Instant& instant) const {
@@ -225,7 +245,7 @@ struct StepRecording::Recordings {
   Ends record_step(LaunchGraph& graph, Ends ready, const Instant& instant) const {
     if (order.own()) {
       ready.tasks = graph.after(ready.tasks, 0, [this, &instant] { run_recordable(instant); });
-      return {ready.tasks, ready.tasks};
+      return {ready.tasks, ready.tasks, ready.tasks};
     }
     LaunchGraph::Node own_forces = ready.all, elements = ready.all, beside_loads = ready.all;
     std::vector<const Task*> apart;
@@ -272,7 +292,7 @@ struct StepRecording::Recordings {
       last.push_back(record_lane(graph, {begin, begin}, {task}, {}, instant));
     }
     const LaunchGraph::Node all = LaunchGraph::joined(last);
-    return {in_parts ? ready.tasks : all, all};
+    return {in_parts ? ready.tasks : all, all, own_forces};
   }
 
   /// What a lane begins after.
@@ -324,8 +344,10 @@ struct StepRecording::Recordings {
       return [this, recorded] { exchange->repeat(*recorded); };
     }
     const auto graph = std::make_shared<LaunchGraph>();
-    Ends ready{graph->root(), graph->root()};
+    Ends ready{graph->root(), graph->root(), graph->root()};
     for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(*graph, ready, now); });
+    if (load_values.any()) graph->after(ready.own_forces, 0, [&] { load_values.take_next(steps); });
+    if (places.any()) graph->after(ready.all, 0, [&] { places.take_next(steps); });
     graph->finish();
     return [this, graph] { graph->launch(order.space()); };
   }
@@ -385,13 +407,17 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const auto place = [&](long step, int number) {
     return place_at(model.prescribed[number], time(step) + instant.step);
   };
-  const auto wait = [&all] { all.wait(); };
   const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps, all.rare_due(model.step)};
+  // Before they are recorded, as a kernel's first launch brings its code to the device.
+  all.load_values.take(all.order.space(), model.step, steps, instant.step, value);
+  all.places.take(all.order.space(), model.step, steps, instant.step, place);
   auto found = all.graphs.find(key);
   if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
-  all.load_values.take(all.order.space(), wait, model.step, steps, instant.step, value);
-  all.places.take(all.order.space(), wait, model.step, steps, instant.step, place);
   found->second();
+  if (all.exchange == nullptr) {
+    all.load_values.has_taken_next(steps);
+    all.places.has_taken_next(steps);
+  }
   if (all.order.own()) all.graph_ends.put(all.order.space());
   return steps;
 }
@@ -400,9 +426,12 @@ long StepRecording::graphs_ahead() const { return recordings_->order.own() ? rec
 
 bool StepRecording::would_wait() const {
   const Recordings& all = *recordings_;
-  const auto checks = [&all](const ContactPair& pair) { return all.model.step >= pair.next_check; };
-  return std::any_of(all.contacts.begin(), all.contacts.end(), checks) ||
-         !all.load_values.has(all.model.step, all.most) || !all.places.has(all.model.step, all.most);
+  const auto checks = [&all](const ContactPair& pair) {
+    const AskedMotion& asked = pair.asked_motion;
+    return all.model.step >= pair.next_check &&
+           (asked.arrives.ahead() > 0 || !asked.is_of(all.model.step, ContactPair::steps_between_near_checks));
+  };
+  return std::any_of(all.contacts.begin(), all.contacts.end(), checks);
 }
 
 #else

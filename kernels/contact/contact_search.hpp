@@ -52,6 +52,29 @@ struct ContactSearch : ContactProjection {
     return concluded(slave, best, place, meeting, beyond);
   }
 
+  /// The same where it is known that no other segments than two that share a side are as near.
+  KOKKOS_INLINE_FUNCTION Projection nearest_of_two(const Vector3& slave, int one, int other, double& beyond) const {
+    int best = one;
+    NearestPlace place = NearestPlace::none(), found[2];
+    for (int k = 0; k < 2; ++k) {
+      const int segment = k == 0 ? one : other;
+      found[k] = nearest_within(see(slave, segment));
+      if (!nearer(found[k], segment, place, best)) continue;
+      best = segment;
+      place = found[k];
+    }
+    Meeting meeting;
+    if (at_side(place.place)) {
+      meeting.begin(see(slave, best), place);
+      for (int k = 0; k < 2; ++k) {
+        const SeenSegment seen = see(slave, k == 0 ? one : other);
+        if (found[k].squared <= meeting.limit(place) && meeting.has(seen, found[k]))
+          meeting.take(seen.segment, found[k], meeting_normal(seen, found[k]));
+      }
+    }
+    return concluded(slave, best, place, meeting, beyond);
+  }
+
   /// Whether any segment's box is within a distance, m.
   KOKKOS_INLINE_FUNCTION bool comes_within(const Vector3& slave, double distance) const {
     bool found = false;

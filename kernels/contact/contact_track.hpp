@@ -10,14 +10,16 @@ struct ContactTrack {
   enum Verdict {
     over_segment,  ///< the projection lies inside a segment
     over_fold,     ///< outside, in the wedge along the side of two segments where it lies inside neither
+    under_fold,    ///< the same inside the body
     surely_apart,  ///< beyond the surface's end or over a convex corner, and outside all segments there
     unknown        ///< always where the way leads over a sharp fold
   };
 
   /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment
   /// @param beyond how far outside it lay, before it was clamped
+  /// @param other out, at a fold: the other of the two segments
   KOKKOS_INLINE_FUNCTION static Verdict follow(const ContactProjection& search, const Vector3& slave, Projection& now,
-                                               double& beyond) {
+                                               double& beyond, int& other) {
     beyond = 1e300;
     int segment = now.segment, from = -1;
     SegmentPlace place = now.place;
@@ -37,7 +39,10 @@ struct ContactTrack {
       const int side = ContactProjection::side_towards(place), next = around.beyond(side);
       if (around.folds(side)) return unknown;
       const bool over_side = std::fmin(std::fabs(place.xi), std::fabs(place.eta)) <= 1.0;
-      if (next >= 0 && next == from && over_side && came_over_side) return now.gap < 0 ? unknown : over_fold;
+      if (next >= 0 && next == from && over_side && came_over_side) {
+        other = now.segment == segment ? from : segment;
+        return now.gap < 0 ? under_fold : over_fold;
+      }
       arrived = next < 0 || next == from;
       came_over_side = over_side;
       from = segment;
@@ -58,10 +63,13 @@ struct ContactTrack {
     now.segment = tracked;
     now.place = place;
     double beyond = 1e300;
+    int other = -1;
     Verdict verdict = unknown;
-    if (touched || near != near_several_sheets) verdict = follow(search, slave, now, beyond);
+    if (touched || near != near_several_sheets) verdict = follow(search, slave, now, beyond, other);
     const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
-    if (verdict == unknown || begins)
+    if (verdict == under_fold && surely_at_side(search, slave, now, other))
+      now = search.nearest_of_two(slave, now.segment, other, beyond);
+    else if (verdict == unknown || verdict == under_fold || begins)
       now = search.nearest(slave, now.segment, beyond,
                            begins && verdict == over_segment && surely_nearest(search, slave, now));
     if (search.beside(now, beyond)) now.gap = beside_surface;
@@ -70,17 +78,64 @@ struct ContactTrack {
 
   /// Whether a place is so far inside its segment that a search would find the same one. Around a slave that is
   /// followed the surface turns by less than 60 degrees, so that other segments are no nearer to the place than half of
-  /// its way to the sides.
-  KOKKOS_INLINE_FUNCTION static bool surely_nearest(const ContactProjection& search, const Vector3& slave,
+  /// its way to the sides. Where one side alone is too near for that, the segment beyond it is looked at, and those
+  /// behind it are no nearer than half of its width.
+  KOKKOS_INLINE_FUNCTION static bool surely_nearest(const ContactSearch& search, const Vector3& slave,
                                                     const Projection& now) {
-    constexpr double reserve = 16;  // half of the way, twice the depth, and as much again for distorted segments
+    const double squared = now.gap * now.gap, deep = reserve * reserve * squared;
     const SeenSegment seen = search.see(slave, now.segment);
-    const Vector3 along_xi = seen.slope_xi(now.place.eta), along_eta = seen.slope_eta(now.place.xi),
-                  area = cross(along_xi, along_eta);
-    const double deep = reserve * reserve * now.gap * now.gap, to_xi = 1 - std::fabs(now.place.xi),
+    const Vector3 along_xi = seen.slope_xi(now.place.eta), along_eta = seen.slope_eta(now.place.xi);
+    const double area = squared_area(along_xi, along_eta), to_xi = 1 - std::fabs(now.place.xi),
                  to_eta = 1 - std::fabs(now.place.eta);
-    return to_xi * to_xi * dot(area, area) > deep * dot(along_eta, along_eta) &&
-           to_eta * to_eta * dot(area, area) > deep * dot(along_xi, along_xi);
+    const bool inside_xi = to_xi * to_xi * area > deep * dot(along_eta, along_eta),
+               inside_eta = to_eta * to_eta * area > deep * dot(along_xi, along_xi);
+    if (inside_xi && inside_eta) return true;
+    if ((!inside_xi && !inside_eta) || ContactSearch::at_side(now.place)) return false;
+    const bool towards_xi = inside_eta, positive = (towards_xi ? now.place.xi : now.place.eta) > 0;
+    const int side = towards_xi ? (positive ? 1 : 3) : (positive ? 2 : 0);
+    const Segment around = search.contact.surface(now.segment);
+    if (around.beyond(side) < 0 || around.folds(side)) return false;
+    const SeenSegment next = search.see(slave, around.beyond(side));
+    return is_wide(next, deep) && lies_beyond(next, positive ? 1.0 : -1.0, towards_xi ? along_xi : along_eta,
+                                              towards_xi ? along_eta : along_xi, squared);
+  }
+
+  /// Whether no other segments are as near as the two on whose common side a place lies: those at its ends are too far
+  /// away, and those behind the two no nearer than half of these' widths.
+  KOKKOS_INLINE_FUNCTION static bool surely_at_side(const ContactProjection& search, const Vector3& slave,
+                                                    const Projection& now, int other) {
+    const double deep = reserve * reserve * dot(now.offset, now.offset);
+    const SeenSegment seen = search.see(slave, now.segment);
+    const bool of_xi = std::fabs(now.place.xi) >= 1;
+    const Vector3 side = of_xi ? seen.slope_eta(now.place.xi) : seen.slope_xi(now.place.eta);
+    const double to_end = 1 - std::fabs(of_xi ? now.place.eta : now.place.xi);
+    return to_end > 0 && to_end * to_end * dot(side, side) > deep && is_wide(seen, deep) &&
+           is_wide(search.see(slave, other), deep);
+  }
+
+ private:
+  static constexpr double reserve = 16;  ///< half of the way, twice the depth, and as much again for distorted segments
+
+  /// Whether a segment is wider than the root of that, m2.
+  KOKKOS_INLINE_FUNCTION static bool is_wide(const SeenSegment& seen, double squared) {
+    return squared_area(seen.across, seen.along) >
+           squared * std::fmax(dot(seen.across, seen.across), dot(seen.along, seen.along));
+  }
+
+  KOKKOS_INLINE_FUNCTION static double squared_area(const Vector3& a, const Vector3& b) {
+    const Vector3 area = cross(a, b);
+    return dot(area, area);
+  }
+
+  /// Whether all of a segment is farther from the slave than a distance, m2, in the direction of `sign` times what
+  /// `across` has at a right angle to `side`.
+  KOKKOS_INLINE_FUNCTION static bool lies_beyond(const SeenSegment& segment, double sign, const Vector3& across,
+                                                 const Vector3& side, double squared) {
+    const Vector3 out = sign * (across - (dot(across, side) / dot(side, side)) * side);
+    double least = 1e300;
+    for (int k = 0; k < 4; ++k) least = std::fmin(least, dot(segment.corner(k), out));
+    constexpr double reserve = 1.0001;  // for rounding
+    return least > 0 && least * least > reserve * squared * dot(out, out);
   }
 };
 

@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "kernels/contact/contact_track.hpp"
@@ -198,6 +201,54 @@ std::vector<Projection> drop(const ContactSearch& search, const std::vector<Poin
   return {host.data(), host.data() + places.size()};
 }
 
+/// What is found without a search of nodes that have come into a body: 0: nothing for sure; 1: the same as by the
+/// search; 2: the same, near a side; 3: the same, in a fold that lies inside neither of its segments; 4: something
+/// else.
+struct Begin {
+  ContactSearch search;
+  Array<const double* [3]> slave;
+  Array<const Projection*> found;
+  Array<int*> verdict;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    verdict(i) = 0;
+    const Projection& by_search = found(i);
+    const Vector3 x = row(slave, i);
+    const double near = 4 * norm(by_search.offset);
+    if (!(by_search.gap < 0) || search.several_sheets(x, by_search, near)) return;
+    Projection now = by_search;
+    double beyond;
+    int other = -1;
+    const ContactTrack::Verdict way = ContactTrack::follow(search, x, now, beyond, other);
+    if (!(now.gap < 0)) return;
+    const bool over = way == ContactTrack::over_segment && ContactTrack::surely_nearest(search, x, now);
+    const bool fold = way == ContactTrack::under_fold && ContactTrack::surely_at_side(search, x, now, other);
+    if (!over && !fold) return;
+    const Projection sure =
+        over ? search.nearest(x, now.segment, beyond, true) : search.nearest_of_two(x, now.segment, other, beyond);
+    const bool same = sure.segment == by_search.segment && std::fabs(sure.gap - by_search.gap) < 1e-15 &&
+                      norm(sure.normal - by_search.normal) < 1e-9;
+    const SeenSegment seen = search.see(x, now.segment);
+    const double to_side =
+        std::fmin((1 - std::fabs(now.place.xi)) * norm(seen.across), (1 - std::fabs(now.place.eta)) * norm(seen.along));
+    verdict(i) = !same ? 4 : fold ? 3 : to_side < 8 * -now.gap ? 2 : 1;
+  }
+};
+
+/// How many have each verdict.
+std::array<int, 5> begin(const ContactSearch& search, const std::vector<Point>& places,
+                         const std::vector<Projection>& found) {
+  const Array<int*> verdict("verdict", places.size());
+  const Array<Projection*> by_search("found", places.size());
+  const auto host = Kokkos::create_mirror_view(by_search);
+  std::copy(found.begin(), found.end(), host.data());
+  Kokkos::deep_copy(by_search, host);
+  Kokkos::parallel_for("begin", Range(0, static_cast<int>(places.size())),
+                       Begin{search, to_device("places", places), by_search, verdict});
+  std::array<int, 5> counts{};
+  for (const int one : to_vector(verdict)) ++counts[one];
+  return counts;
+}
+
 /// By how much the springs of nodes in contact are stretched otherwise a step later, m.
 struct Follow {
   ContactSearch search;
@@ -242,6 +293,7 @@ TEST_CASE(
   int far_segment = 0, wrong_distance = 0, wrong_side = 0, depends_on_start = 0, jumps = 0, asked = 0;
   double worst_jump = 0, worst_stretch = 0;
   int stretches = 0, pressing = 0;
+  std::array<int, 5> begun{};
   for (int b = 0; b < bodies; ++b) {
     const Body made = body(random, b % 2 == 0);
     const ContactSearch search = search_on(made.nodes, made.quads);
@@ -270,6 +322,8 @@ TEST_CASE(
       stretches += change > (made.flat ? 1.01e-9 : 1.3e-9);
       worst_stretch = std::max(worst_stretch, change);
     }
+    const std::array<int, 5> here = begin(search, places, found);
+    std::transform(begun.begin(), begun.end(), here.begin(), begun.begin(), std::plus<>());
     const auto again = drop(search, places, std::vector<int>(places.size(), 0));
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (i % 2 == 0) {
@@ -303,6 +357,11 @@ TEST_CASE(
   CHECK(pressing > 3000);
   CHECK(stretches <= 1);
   CHECK(worst_stretch < 4e-9);
+  // Some are surely over their segment, without a search: also near its sides.
+  INFO("without a search " << begun[1] << ", near a side " << begun[2]);
+  CHECK(begun[1] > 1000);
+  CHECK(begun[2] > 100);
+  CHECK(begun[4] == 0);
 }
 
 TEST_CASE("a node over the line between two faces does not meet a far one, however the line is turned", "[contact]") {
@@ -332,4 +391,36 @@ TEST_CASE("a node over the line between two faces does not meet a far one, howev
       CHECK(p.normal[2] > 1 - 1e-6);
     }
   }
+}
+
+TEST_CASE("a node under a valley's line, over neither of its sides, is found without a search as with one",
+          "[contact]") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> within(-1, 1), unit(0, 1);
+  std::array<int, 5> found_so{};
+  constexpr int valleys = 50, of_each = 40;
+  for (int v = 0; v < valleys; ++v) {
+    const double slope = 0.5 * std::pow(10.0, -4 * unit(random)), turn = 3 * within(random), tilt = within(random);
+    const auto placed = [&](double x, double y, double z) {
+      const double x1 = x * std::cos(turn) - y * std::sin(turn), y1 = x * std::sin(turn) + y * std::cos(turn);
+      return Point{x1, y1 * std::cos(tilt) - z * std::sin(tilt), y1 * std::sin(tilt) + z * std::cos(tilt)};
+    };
+    std::vector<Point> nodes;
+    std::vector<Quad> quads;
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j < 3; ++j) nodes.push_back(placed(i - 2, j - 1, j == 1 ? 0 : slope));
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 2; ++j) quads.push_back({3 * i + j, 3 * i + j + 3, 3 * i + j + 4, 3 * i + j + 1});
+    const ContactSearch search = search_on(nodes, quads);
+    std::vector<Point> places;
+    for (int k = 0; k < of_each; ++k) {
+      const double depth = 0.02 * std::pow(10.0, -4 * unit(random));
+      places.push_back(placed(2 * within(random), 0.9 * slope * depth * within(random), -depth));
+    }
+    const std::array<int, 5> here = begin(search, places, drop(search, places, std::vector<int>(of_each, 0)));
+    std::transform(found_so.begin(), found_so.end(), here.begin(), found_so.begin(), std::plus<>());
+  }
+  INFO("in the valley " << found_so[3] << ", left to the search " << found_so[0] << ", over one side " << found_so[1]);
+  CHECK(found_so[3] > 1000);
+  CHECK(found_so[4] == 0);
 }

@@ -81,7 +81,9 @@ struct FindNearNodes {
       contact.place(s, 0) = found.place.xi;
       contact.place(s, 1) = found.place.eta;
       if (!penetrating) {
-        contact.gap(s) = beside ? beside_surface : found.gap;
+        // One that goes on to be projected keeps the gap of the step before, from which its work is counted.
+        const bool goes_on = !first && was_projected && entry.projected() && is_distance(contact.gap(s));
+        if (!goes_on) contact.gap(s) = beside ? beside_surface : found.gap;
       } else if (first) {
         contact.gap(s) = found.gap;
       } else if (!was_projected) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "model/elements/relative_coordinates.hpp"
 #include "model/model.hpp"
@@ -64,8 +65,11 @@ bool DeformedStep::due(long step) const {
          (step >= next_ || (may_strike() && contact_checked_before(step)));
 }
 
-DeformedNow DeformedStep::measure_now(double elements) const {
-  DeformedNow found = railwave::measure_now(elements_, nodal_, undeformed_, elements);
+/// @param approach whether that of the contacts is asked for, too
+DeformedNow DeformedStep::measure_now(double elements, bool approach) const {
+  const std::vector<ContactPair> none_asked;
+  DeformedNow found =
+      railwave::measure_now(elements_, nodal_, undeformed_, elements, approach ? contacts_ : none_asked);
   if (others_ != nullptr) others_->join_deformed(found, undeformed_, elements);
   return found;
 }
@@ -95,10 +99,15 @@ bool DeformedStep::check_again() {
 bool DeformedStep::check(double size) {
   const long step = nodal_.step, cycle = nodal_.subcycling.cycle();
   if (nodal_.relative.begun) update_absolute_nodes(nodal_);
+  const bool whole = sizes_.global_estimate != nullptr;
+  const double elements = whole ? elements_limit(sizes_.stable_step) : undeformed_;
+  const bool asks_approach = moves_fast() && (step >= next_ || window_is_new());
+  std::optional<DeformedNow> measured;
+  if (step >= next_) measured = measure_now(elements, asks_approach);
   if (!moves_fast()) {
     layouts_ = none;  // nobody asks for the approach, and it will be another one
-  } else if (step >= next_ || window_is_new()) {
-    approach_ = fastest_approach(nodal_, contacts_);
+  } else if (asks_approach) {
+    approach_ = measured ? measured->approach : fastest_approach(nodal_, contacts_);
     layouts_ = layouts_of(contacts_);
   }
   const double to_strike = may_strike() ? steps_to_strike(nodal_, contacts_, fast_, sizes_.step_size)
@@ -107,9 +116,7 @@ bool DeformedStep::check(double size) {
   if (strikes) next_ = std::min(next_, step + static_cast<long>(0.8 * to_strike));
   if (step < next_) return false;
 
-  const bool whole = sizes_.global_estimate != nullptr;
-  const double elements = whole ? elements_limit(sizes_.stable_step) : undeformed_;
-  const DeformedNow now = measure_now(elements);
+  const DeformedNow now = measured ? *measured : measure_now(elements, false);
   speed_ = now.speed;
   by_elements_ = now.second >= now.first;
   found_ = std::fmax(std::fmin(std::fmax(now.first, now.second), undeformed_), least_left * undeformed_);

@@ -62,7 +62,7 @@ class DeformedStep {
   bool window_is_new() const;
   bool check(double size);
   double used_share() const;
-  DeformedNow measure_now(double elements) const;
+  DeformedNow measure_now(double elements, bool approach) const;
   DeformedAhead measure_ahead(double limit, double least) const;
 
   const scene::Scene& scene_;

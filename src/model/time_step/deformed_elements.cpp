@@ -100,14 +100,32 @@ DeformedElements deformed_elements(const Model& model, const OwnItems* own) {
   return made;
 }
 
+namespace {
+
+TrackedMotion tracked_motion(const NodalState& nodal, const ContactPair& pair) {
+  return {pair.arrays, pair.window, nodal.nodes.position, nodal.nodes.velocity};
+}
+
+/// @param fastest gets it
+void queue_approach(const NodalState& nodal, const std::vector<ContactPair>& contacts, Reductions& reductions,
+                    double& fastest) {
+  for (const ContactPair& pair : contacts)
+    reductions.largest(Approach{tracked_motion(nodal, pair)}, pair.window.count, [&fastest](const Largest<1>& of) {
+      if (of.place[0] >= 0) fastest = std::fmax(fastest, of.value[0]);
+    });
+}
+
+}  // namespace
+
 DeformedNow measure_now(const DeformedElements& elements, const NodalState& nodal, double first_limit,
-                        double second_limit) {
-  DeformedNow found{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0};
+                        double second_limit, const std::vector<ContactPair>& approaching) {
+  DeformedNow found{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0, 0};
   Reductions reductions(*nodal.reduction_space);
   reductions.largest(DeformedStepNow{shape_of(elements, nodal), {first_limit, second_limit}}, elements.count,
                      [&](const Largest<3>& of) {
-                       if (of.place[0] >= 0) found = {-of.value[0], -of.value[1], std::sqrt(of.value[2])};
+                       if (of.place[0] >= 0) found = {-of.value[0], -of.value[1], std::sqrt(of.value[2]), 0};
                      });
+  queue_approach(nodal, approaching, reductions, found.approach);
   reductions.fetch();
   return found;
 }
@@ -128,6 +146,7 @@ void join(DeformedNow& own, const DeformedNow& other) {
   own.first = std::fmin(own.first, other.first);
   own.second = std::fmin(own.second, other.second);
   own.speed = std::fmax(own.speed, other.speed);
+  own.approach = std::fmax(own.approach, other.approach);
 }
 
 void join(DeformedAhead& own, const DeformedAhead& other) {
@@ -136,21 +155,10 @@ void join(DeformedAhead& own, const DeformedAhead& other) {
   own.loss = std::fmax(own.loss, other.loss);
 }
 
-namespace {
-
-TrackedMotion tracked_motion(const NodalState& nodal, const ContactPair& pair) {
-  return {pair.arrays, pair.window, nodal.nodes.position, nodal.nodes.velocity};
-}
-
-}  // namespace
-
 double fastest_approach(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
   double fastest = 0;
   Reductions reductions(*nodal.reduction_space);
-  for (const ContactPair& pair : contacts)
-    reductions.largest(Approach{tracked_motion(nodal, pair)}, pair.window.count, [&](const Largest<1>& of) {
-      if (of.place[0] >= 0) fastest = std::fmax(fastest, of.value[0]);
-    });
+  queue_approach(nodal, contacts, reductions, fastest);
   reductions.fetch();
   return fastest;
 }

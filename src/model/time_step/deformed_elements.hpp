@@ -26,9 +26,11 @@ DeformedElements deformed_elements(const Model& model, const OwnItems* own);
 struct DeformedNow {
   double first = 0, second = 0;  ///< s, the step that is allowed by the first and the second limit
   double speed = 0;              ///< m/s, of the fastest element
+  double approach = 0;           ///< m/s, see fastest_approach()
 };
+/// @param approaching contacts that are asked for their approach with it, so that the device is waited for once
 DeformedNow measure_now(const DeformedElements& elements, const NodalState& nodal, double first_limit,
-                        double second_limit);
+                        double second_limit, const std::vector<ContactPair>& approaching = {});
 
 struct DeformedAhead {
   double allowed = 0;  ///< s, the step that is allowed now

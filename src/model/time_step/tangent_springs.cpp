@@ -60,6 +60,7 @@ void SpringCollector::add_beams(const std::shared_ptr<BeamModel>& beams, const N
 
 void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, bool friction) {
   constexpr Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  reserve(springs.size() * 4 * ((friction ? 3 : 1) + 1));
   for (const ContactSpring& spring : springs)
     for (int corner = 0; corner < 4; ++corner) {
       if (spring.share[corner] == 0) continue;
@@ -75,6 +76,16 @@ void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, boo
       add(spring.master_nodes[corner], -1, spring.normal);
       close(0, spring.share[corner] * spring.damping);
     }
+}
+
+/// For so many springs more between two nodes each: memory that grows bit by bit takes a GPU's host longer than the
+/// rest.
+void SpringCollector::reserve(std::size_t springs) {
+  node_.reserve(node_.size() + 2 * springs);
+  share_.reserve(share_.size() + 2 * springs);
+  first_.reserve(first_.size() + springs);
+  stiffness_.reserve(stiffness_.size() + springs);
+  damping_.reserve(damping_.size() + springs);
 }
 
 void SpringCollector::add_ground(int node, double stiffness, double damping) {
@@ -134,6 +145,8 @@ void SpringCollector::bring_to(TangentSprings& springs) const {
   springs.node_count = static_cast<int>(of_nodes.nodes.size());
   std::vector<int> spring;
   std::vector<Vec3> share;
+  spring.reserve(node_.size());
+  share.reserve(node_.size());
   for (const int row : of_nodes.rows) {
     spring.push_back(spring_of_row[row]);
     share.push_back(share_[row]);

@@ -42,6 +42,7 @@ class SpringCollector {
   void add(int node, double weight, const Vec3& direction);
   void add_end(const WeightedNodes& end, double sign, const Vec3& direction);
   void close(double stiffness, double damping);
+  void reserve(std::size_t springs);
 
   std::vector<int> first_{0}, node_;
   std::vector<Vec3> share_;

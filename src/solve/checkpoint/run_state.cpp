@@ -27,9 +27,9 @@ void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   archive.value(of + "layouts", pair.layouts);
   archive.value(of + "looks", pair.checks);
   SurfaceMotion& motion = pair.asked_motion.last;
-  archive.value(of + "motion_step", motion.step);
-  archive.value(of + "motion_moved", motion.moved);
-  archive.value(of + "motion_speed", motion.speed);
+  archive.newer_value(of + "motion_step", motion.step);
+  archive.newer_value(of + "motion_moved", motion.moved);
+  archive.newer_value(of + "motion_speed", motion.speed);
 }
 
 template <class Archive>
@@ -90,11 +90,12 @@ void save_model_state(Model& model, RunState& state) {
 
 void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
-  archive(restorer, model);
   for (ContactPair& pair : model.contacts) {
-    pair.uncounted_of = -1;
+    pair.asked_motion.last.step = -1;
     pair.asked_motion.under_way = false;
   }
+  archive(restorer, model);
+  for (ContactPair& pair : model.contacts) pair.uncounted_of = -1;
   keep_choice(model);
   if (model.relative.begun) place_frames(model.elements, model);
 }

@@ -40,6 +40,12 @@ class StateSaver {
     bytes(name, &value, sizeof value);
   }
 
+  /// One that states of before do not have.
+  template <class T>
+  void newer_value(const std::string& name, const T& value) {
+    this->value(name, value);
+  }
+
   template <class T>
   void values(const std::string& name, const std::vector<T>& list) {
     bytes(name, list.data(), list.size() * sizeof(T));
@@ -67,6 +73,12 @@ class StateRestorer {
     const auto& bytes = of(name);
     if (bytes.size() != sizeof value) refuse_state(name, "has another size");
     std::memcpy(static_cast<void*>(&value), bytes.data(), sizeof value);
+  }
+
+  /// Left as it is where the state does not have it.
+  template <class T>
+  void newer_value(const std::string& name, T& value) {
+    if (has(name)) this->value(name, value);
   }
 
   template <class T>

@@ -157,16 +157,18 @@ void lay_out_window_between(const ExecutionSpace& space, const NodeArrays& nodes
   wait_for(ExecutionSpace());
 }
 
-/// Whether the window was laid out anew.
-bool renew_window(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step, double sudden) {
+/// @param may_be_old the surfaces' motion may be of the near check before
+/// @return whether the window was laid out anew
+bool renew_window(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step, double sudden,
+                  bool may_be_old) {
   // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
   // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
   ++pair.checks;
   const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
   if (!laid_out) lay_out_window_between(space, nodal.nodes, pair, margin);
-  if (!laid_out || !pair.asked_motion.is_of(nodal.step, ContactPair::steps_between_near_checks))
-    ask_for_motion(space, nodal.nodes, pair, nodal.step);
+  const bool asked = may_be_old && pair.asked_motion.is_of(nodal.step, ContactPair::steps_between_near_checks);
+  if (!laid_out || !asked) ask_for_motion(space, nodal.nodes, pair, nodal.step);
   SurfaceMotion motion = take_motion(pair);
   const auto steps_left = [&] {
     const auto since = static_cast<double>(nodal.step - motion.step);
@@ -249,7 +251,7 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
                  (near_check ? steps : pair.next_near_check - nodal.step) + (counts ? ContactPair::steps_to_answer : 0);
   const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = check && renew_window(space, nodal, pair, step, sudden);
+  const bool laid_out = check && renew_window(space, nodal, pair, step, sudden, !settling);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   const auto update = [&](const auto& enclose) {
     update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then, enclose);

@@ -134,8 +134,8 @@ struct ContactTrack {
     const Vector3 out = sign * (across - (dot(across, side) / dot(side, side)) * side);
     double least = 1e300;
     for (int k = 0; k < 4; ++k) least = std::fmin(least, dot(segment.corner(k), out));
-    constexpr double reserve = 1.0001;  // for rounding
-    return least > 0 && least * least > reserve * squared * dot(out, out);
+    constexpr double rounding = 1.0001;
+    return least > 0 && least * least > rounding * squared * dot(out, out);
   }
 };
 

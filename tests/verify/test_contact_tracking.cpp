@@ -195,7 +195,7 @@ void check(const WheelOnRail& made, double end, long least_touching, long least_
   const ContactPair& pair = model.contacts[0];
   INFO("steps " << count.steps << ", nodes in contact " << count.touching << ", segments crossed " << count.crossings
                 << ", met " << count.meetings << ", parted " << count.partings << ", in doubt " << count.doubtful
-                << ", window laid out " << pair.layouts << " times, checked " << pair.checks << " times");
+                << ", window built " << pair.layouts << " times, checked " << pair.checks << " times");
   CHECK(count.different == 0);
   CHECK(count.doubtful < 5);
   CHECK(count.wrong_gap == 0);

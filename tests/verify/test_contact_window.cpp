@@ -8,7 +8,7 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Positions, velocities and contact forces at the end of a run, with the window laid out when it needs to be or every
+/// Positions, velocities and contact forces at the end of a run, with the window built when it needs to be or every
 /// step.
 std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& layouts) {
   Model model;
@@ -36,7 +36,7 @@ void check_window_is_unseen(const scene::Scene& scene) {
   const auto own = outcome(scene, false, layouts), often = outcome(scene, true, all);
   std::size_t different = 0;
   for (std::size_t k = 0; k < own.size(); ++k) different += !(own[k] == often[k]);
-  INFO("window laid out " << layouts << " times; values that differ: " << different << " of " << own.size());
+  INFO("window built " << layouts << " times; values that differ: " << different << " of " << own.size());
   CHECK(different == 0);
 }
 
@@ -51,7 +51,7 @@ TwoBlocks small_on_large() {
   return blocks;
 }
 
-/// 18 mm, so that the window is laid out more than once.
+/// 18 mm, so that the window is built more than once.
 scene::Scene sliding_impact(scene::ContactAlgorithm algorithm) {
   TwoBlocks blocks = small_on_large();
   blocks.algorithm = algorithm;
@@ -63,11 +63,11 @@ scene::Scene sliding_impact(scene::ContactAlgorithm algorithm) {
 
 }  // namespace
 
-TEST_CASE("how often the contact window is laid out changes no bit of an impact that slides") {
+TEST_CASE("how often the contact window is built changes no bit of an impact that slides") {
   check_window_is_unseen(sliding_impact(scene::ContactAlgorithm::penalty));
 }
 
-TEST_CASE("how often the contact window is laid out changes multipliers and their account by rounding alone") {
+TEST_CASE("how often the contact window is built changes multipliers and their account by rounding alone") {
   // Multipliers take in nodes just before these touch, which a check finds at the same places but for rounding.
   long layouts, all;
   const scene::Scene scene = sliding_impact(scene::ContactAlgorithm::multiplier);
@@ -84,7 +84,7 @@ TEST_CASE("how often the contact window is laid out changes multipliers and thei
   }
 }
 
-TEST_CASE("how often the contact window is laid out changes no bit when a body at rest is set in motion late") {
+TEST_CASE("how often the contact window is built changes no bit when a body at rest is set in motion late") {
   // At rest until 4e-5 s (some 200 steps), then driven across the lower block and onto it.
   for (double gap : {0.0, 9e-3}) {
     TwoBlocks blocks = small_on_large();

@@ -14,7 +14,7 @@ struct SquaredMotion {
   double speed;  ///< m2/s2
 };
 
-/// How far a pair's surfaces have moved since its window was laid out, and how fast they move, at most: the slave's and
+/// How far a pair's surfaces have moved since its window was built, and how fast they move, at most: the slave's and
 /// the master's added.
 struct SurfaceMotion {
   double moved = 0;  ///< m

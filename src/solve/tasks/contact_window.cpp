@@ -15,7 +15,7 @@ namespace {
 
 /// The window reaches this many of the largest segment's diagonals beyond a segment.
 constexpr double margin_in_segments = 3;
-/// Most steps between two measurements of how far the surfaces have moved since the window was laid out.
+/// Most steps between two measurements of how far the surfaces have moved since the window was built.
 constexpr long most_steps_between_checks = 512;
 /// A layout is made early rather than followed by another check so soon.
 constexpr long least_steps_between_checks = 16;
@@ -116,7 +116,7 @@ void fill_window(ContactWindow& window, int slave_count, const std::vector<Windo
   window.resize(static_cast<int>(entries.size()));
 }
 
-void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
+void build_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
   const ContactArrays& contact = pair.arrays;
   pair.slaves_at_layout = gathered_rows(nodes.position, contact.slave_nodes);
   pair.masters_at_layout = gathered_rows(nodes.position, contact.master_nodes);
@@ -150,33 +150,33 @@ void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
 }
 
 /// In the default space, after what has been launched in another and before what will be.
-void lay_out_window_between(const ExecutionSpace& space, const NodeArrays& nodes, ContactPair& pair, double margin) {
+void build_window_between(const ExecutionSpace& space, const NodeArrays& nodes, ContactPair& pair, double margin) {
   wait_for(space);
-  lay_out_window(nodes, pair, margin);
+  build_window(nodes, pair, margin);
   ++pair.layouts;
   wait_for(ExecutionSpace());
 }
 
 /// @param may_be_old the surfaces' motion may be of the near check before
-/// @return whether the window was laid out anew
+/// @return whether the window was built anew
 bool renew_window(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step, double sudden,
                   bool may_be_old) {
-  // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
+  // A slave outside the window was at least a segment and two margins from every master node when it was built, so
   // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
   ++pair.checks;
-  const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
-  if (!laid_out) lay_out_window_between(space, nodal.nodes, pair, margin);
+  const bool built = pair.slaves_at_layout.extent(0) != 0;
+  if (!built) build_window_between(space, nodal.nodes, pair, margin);
   const bool asked = may_be_old && pair.asked_motion.is_of(nodal.step, ContactPair::steps_between_near_checks);
-  if (!laid_out || !asked) ask_for_motion(space, nodal.nodes, pair, nodal.step);
+  if (!built || !asked) ask_for_motion(space, nodal.nodes, pair, nodal.step);
   SurfaceMotion motion = take_motion(pair);
   const auto steps_left = [&] {
     const auto since = static_cast<double>(nodal.step - motion.step);
     return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden) - since;
   };
-  bool anew = !laid_out;
-  if (laid_out && steps_left() < least_steps_between_checks && motion.moved < 1e100) {
-    lay_out_window_between(space, nodal.nodes, pair, margin);
+  bool anew = !built;
+  if (built && steps_left() < least_steps_between_checks && motion.moved < 1e100) {
+    build_window_between(space, nodal.nodes, pair, margin);
     motion.moved = 0;
     motion.step = nodal.step;
     pair.asked_motion.last.step = -1;
@@ -251,14 +251,14 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
                  (near_check ? steps : pair.next_near_check - nodal.step) + (counts ? ContactPair::steps_to_answer : 0);
   const double interval = static_cast<double>(ahead) * step, sudden_until_then = static_cast<double>(ahead) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = check && renew_window(space, nodal, pair, step, sudden, !settling);
+  const bool built = check && renew_window(space, nodal, pair, step, sudden, !settling);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   const auto update = [&](const auto& enclose) {
     update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then, enclose);
   };
   const EncloseBoxes enclose{pair.arrays.boxes};
   FindNearNodes find{
-      search,      pair.window, nodal.nodes.velocity, interval, sudden_until_then, first, first || laid_out || wake,
+      search,      pair.window, nodal.nodes.velocity, interval, sudden_until_then, first, first || built || wake,
       pair.missed, {},          pair.uncounted,       {}};
   if (rest) find.rest = {static_cast<int>(since), static_cast<double>(ahead) / NearRest::span};
   if (!near_check) {

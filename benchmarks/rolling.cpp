@@ -133,6 +133,18 @@ void report_share(Records& records, const std::string& what, double elements, co
   records.add().set("what", what + ", of the block's speed").set("elements", elements).set("share", shares.median());
 }
 
+/// @param of what they are, after "task" and "tasks"
+template <class Tasks>
+void report_tasks(Records& records, const std::string& of, double elements, const Tasks& tasks) {
+  double sum = 0;
+  for (const auto& entry : tasks) sum += entry.second;
+  fmt::print("tasks{}, each with a fence after it, {:.2f} us in all:\n", of, 1e6 * sum);
+  for (const auto& [task, seconds] : tasks) {
+    fmt::print("  {:10.2f} us  {:4.1f} %  {}\n", 1e6 * seconds, 100 * seconds / sum, task);
+    records.add().set("what", "task" + of).set("task", task).set("elements", elements).set("seconds_per_step", seconds);
+  }
+}
+
 bool work(const Options& options, Records& records) {
   auto overrides = options.elements > 0 ? sizes_for(options.elements) : std::vector<std::string>{};
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
@@ -176,14 +188,9 @@ bool work(const Options& options, Records& records) {
     report_share(records, run_name, elements, timings.run, timings.block, block->elements());
     report_share(records, loop_name, elements, timings.loop, timings.block, block->elements());
   }
-  double sum = 0;
-  const auto tasks = loop.task_seconds(std::min(options.steps, 500L));
-  for (const auto& entry : tasks) sum += entry.second;
-  fmt::print("tasks, each with a fence after it, {:.2f} us in all:\n", 1e6 * sum);
-  for (const auto& [task, seconds] : tasks) {
-    fmt::print("  {:10.2f} us  {:4.1f} %  {}\n", 1e6 * seconds, 100 * seconds / sum, task);
-    records.add().set("what", "task").set("task", task).set("elements", elements).set("seconds_per_step", seconds);
-  }
+  report_tasks(records, "", elements, loop.task_seconds(std::min(options.steps, 500L)));
+  if (block)
+    report_tasks(records, " of the block", block->elements(), block->loop->task_seconds(std::min(options.steps, 500L)));
   const double account = repeat(options.repetitions, [&] { take_sample(begun.model, begun.model.step_size); }).best();
   fmt::print("  {:10.2f} us  energy account and histories of one output\n", 1e6 * account);
   records.add().set("what", "account").set("elements", elements).set("seconds_per_step", account);

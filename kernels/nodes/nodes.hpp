@@ -57,6 +57,14 @@ struct PartialForces {
   Array<MorePlaces*> more;
   bool single_precision = false;
 
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION const PartialForce<S>* in() const {
+    if constexpr (sizeof(S) == sizeof(float))
+      return in_single.data();
+    else
+      return in_double.data();
+  }
+
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
     if (single_precision) {
       const PartialForce<float> f = in_single(place);
@@ -127,14 +135,32 @@ struct NodalForce {
   }
 
 #ifdef RAILWAVE_SIMD_LANES
-  /// Asks for what moving the node will read.
+  /// Asks for what moving the node will read. Three components may lie in two lines of the cache.
   KOKKOS_FORCEINLINE_FUNCTION void prefetch_shared(const SharedNode& node) const {
     const int n = node.node & ~special_bit;
     prefetch(&nodes.position(n, 0));
+    prefetch(&nodes.position(n, 2));
     prefetch(&nodes.velocity(n, 0));
-    if (partial.single_precision) return;
+    prefetch(&nodes.velocity(n, 2));
+    prefetch(&nodes.mass(n));
+    prefetch_partials(node);
+  }
+
+  /// Asks for a shared node's partial forces, but for those for which MorePlaces has no room.
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_partials(const SharedNode& node) const {
+    if (partial.single_precision)
+      prefetch_rows(node, partial.in_single.data());
+    else
+      prefetch_rows(node, partial.in_double.data());
+  }
+
+  template <class Row>
+  KOKKOS_FORCEINLINE_FUNCTION void prefetch_rows(const SharedNode& node, const Row* rows) const {
     for (int place : node.place)
-      if (place >= 0) prefetch(&partial.in_double(place));
+      if (place >= 0) prefetch(rows + place);
+    if (node.more == 0) return;
+    for (int place : partial.more(node.more - 1).place)
+      if (place >= 0) prefetch(rows + place);
   }
 
   /// Asks for a node's partial forces.
@@ -158,6 +184,22 @@ struct NodalForce {
       if (!act(nodes.partial_place(c))) return;
   }
 
+#ifdef RAILWAVE_SIMD_LANES
+  /// Adds a shared node's partial forces, N, to a sum of whose four numbers the last has no meaning: a host adds all at
+  /// once.
+  /// @tparam S their number type
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION PartialForce<double> with_all_partials(const SharedNode& shared,
+                                                                     PartialForce<double> sum = {}) const {
+    const PartialForce<S>* const rows = partial.in<S>();
+    each_place(shared, [&](int place) {
+      for (int k = 0; k < 4; ++k) sum.x[k] += static_cast<double>(rows[place].x[k]);
+      return true;
+    });
+    return sum;
+  }
+#endif
+
   /// The first partial forces of a shared node, on a device: a host asks for them when it adds them.
   KOKKOS_INLINE_FUNCTION PartialForces::Rows<2> first_rows(const SharedNode& shared) const {
     if (!on_device || shared.place[0] < 0) return {{}, {false, false}};
@@ -166,11 +208,18 @@ struct NodalForce {
 
   /// The same as with_rows(), one row after the other.
   KOKKOS_INLINE_FUNCTION Vector3 with_places(Vector3 force, const SharedNode& shared) const {
+#ifdef RAILWAVE_SIMD_LANES
+    const PartialForce<double> begin{{force[0], force[1], force[2], 0}};
+    const PartialForce<double> sum =
+        partial.single_precision ? with_all_partials<float>(shared, begin) : with_all_partials<double>(shared, begin);
+    return {{sum.x[0], sum.x[1], sum.x[2]}};
+#else
     each_place(shared, [&](int place) {
       force = force + partial(place);
       return true;
     });
     return force;
+#endif
   }
 
   /// Sum of a shared node's partial forces and others, N.
@@ -239,6 +288,11 @@ struct NodeAdvance {
     const Vector3 a = acceleration(inverse_mass, {{force[0], force[1], force[2]}});
     move(n, a, {{x[0], x[1], x_last}}, {{v[0], v[1], v[2]}});
 #endif
+  }
+
+  void move_under(int n, double inverse_mass, const double* force) const {
+    const double* const x = &nodes.position(n, 0);
+    move_under(n, inverse_mass, force, x, x[2], &nodes.velocity(n, 0));
   }
 #endif
 };

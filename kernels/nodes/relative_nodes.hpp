@@ -111,10 +111,20 @@ struct RelativePlainUpdate {
   Array<const FrameArm*> arm;  ///< of each shared node
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const NodalForce sum = force.with_partials_in<float>();
     const SharedNode node = shared(i);
     const FrameArm own = arm(i);
+#ifdef RAILWAVE_SIMD_LANES
+    if (i + prefetch_ahead < static_cast<int>(shared.extent(0))) {
+      const SharedNode& later = shared(i + prefetch_ahead);
+      prefetch(&advance.nodes.node(later.node));
+      force.prefetch_rows(later, force.partial.in<float>());
+    }
+    const PartialForce<double> sum = force.with_all_partials<float>(node);
+    const Vector3 f{{sum.x[0], sum.x[1], sum.x[2]}};
+#else
+    const NodalForce sum = force.with_partials_in<float>();
     const Vector3 f = sum.with_rows({{0, 0, 0}}, node, sum.first_rows(node));
+#endif
     float a[3];
     advance.acceleration(advance.nodes.node(node.node).inverse_mass, f, a);
     advance.move(node.node, a, advance.nodes.frame(own.frame).change_at_start, own.x);

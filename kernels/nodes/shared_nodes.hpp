@@ -52,40 +52,21 @@ struct SharedNodeUpdate {
   SharedForces forces;
   NodeAdvance advance;
 
-#ifdef RAILWAVE_SIMD_LANES
-  /// Moves a node of several blocks that feels nothing but elements and gravity: nearly all are such.
-  KOKKOS_FORCEINLINE_FUNCTION void move_plain(const SharedNode& node) const {
-    const NodalForce& force = forces.acceleration.force;
-    const PartialForce<double>* rows = force.partial.in_double.data();
-    PartialForce<double> sum = rows[node.place[0]];
-    const auto add = [&](const PartialForce<double>& row) {
-      for (int i = 0; i < 4; ++i) sum.x[i] += row.x[i];
-    };
-    add(rows[node.place[1]]);
-    if (node.more > 0) {
-      const MorePlaces& more = force.partial.more(node.more - 1);
-      for (int k = 0; k < MorePlaces::count && more.place[k] >= 0; ++k) add(rows[more.place[k]]);
-      for (int c = more.first; c < more.last; ++c) add(rows[force.nodes.partial_place(c)]);
-    }
-    const double* x = &advance.nodes.position(node.node, 0);
-    advance.move_under(node.node, 1.0 / advance.nodes.mass(node.node), sum.x, x, x[2],
-                       &advance.nodes.velocity(node.node, 0));
-  }
-#endif
-
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
 #ifdef RAILWAVE_SIMD_LANES
     if (i + prefetch_ahead < static_cast<int>(forces.shared.nodes.extent(0)))
       forces.acceleration.force.prefetch_shared(forces.shared.nodes(i + prefetch_ahead));
 #endif
     const SharedNode node = forces.shared.nodes(i);
-#ifdef RAILWAVE_SIMD_LANES
-    if (node.node >= 0 && node.place[1] >= 0 && !forces.acceleration.force.partial.single_precision)
-      return move_plain(node);
-#endif
     const SpecialNode special = forces.shared.special_of(i);
     const int n = node.node & ~special_bit;
     const double inverse_mass = 1.0 / advance.nodes.mass(n);
+#ifdef RAILWAVE_SIMD_LANES
+    if (special.constraint < 0) {
+      advance.move_under(n, inverse_mass, forces(node, special).x);
+      return forces.clear_contact(special);
+    }
+#endif
     const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
     const Vector3 a = advance.acceleration(inverse_mass, forces(node, special));
     advance.move(n, projected(forces.acceleration.constraints, special.constraint, a), x, v);
@@ -93,8 +74,9 @@ struct SharedNodeUpdate {
   }
 };
 
-/// The same for nodes that nothing but elements and gravity concerns, on a GPU. Without what is asked for special ones
-/// a thread needs half the registers, so that twice as many wait for memory at a time.
+/// The same for nodes that nothing but elements and gravity concerns: nearly all are such. A thread of a GPU needs half
+/// the registers without what is asked for special ones, so that twice as many wait for memory at a time; a host has a
+/// short loop, and its threads as many of these as of those.
 /// @tparam S number type of the partial forces
 template <class S>
 struct PlainNodeUpdate {
@@ -102,6 +84,14 @@ struct PlainNodeUpdate {
   Array<const SharedNode*> shared;
   NodeAdvance advance;
 
+#ifdef RAILWAVE_SIMD_LANES
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(const int i) const {
+    if (i + prefetch_ahead < static_cast<int>(shared.extent(0))) force.prefetch_shared(shared(i + prefetch_ahead));
+    const SharedNode& node = shared(i);
+    const PartialForce<double> sum = force.with_all_partials<S>(node);
+    advance.move_under(node.node, 1.0 / advance.nodes.mass(node.node), sum.x);
+  }
+#else
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const NodalForce sum = force.with_partials_in<S>();
     const SharedNode node = shared(i);
@@ -110,6 +100,7 @@ struct PlainNodeUpdate {
     const Vector3 f = sum.with_rows({{0, 0, 0}}, node, sum.first_rows(node));
     advance.move(node.node, advance.acceleration(inverse_mass, f), x, v);
   }
+#endif
 };
 
 }  // namespace railwave

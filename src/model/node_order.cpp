@@ -42,9 +42,9 @@ Array<SpecialNode*> special_nodes(const SharedOnHost& shared, const NodalState& 
   return to_device("special nodes", special);
 }
 
-/// So many plain nodes have room on a GPU at a time as threads of the special ones' launch, which takes less then than
-/// two.
-constexpr int most_with_others = 1 << 16;
+/// So many plain nodes at most go with the special ones in one launch. They have room on a GPU at a time as threads of
+/// that launch, which takes less than two; threads of a host spend as long on them as a second launch takes.
+constexpr int most_with_others = on_device ? 1 << 16 : 1 << 10;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void order_shared_nodes(const std::vector<ElementGroup>& groups, const std::vect
   nodal.first_late = move_behind(shared, nodal.shared.first_special,
                                  [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
   if (on_device && any_but_ends) nodal.early_shared = nodal.first_late;
-  nodal.plain_apart = on_device && nodal.shared.first_special > most_with_others;
+  nodal.plain_apart = nodal.shared.first_special > most_with_others;
   if (in_parts) {
     std::vector<char> special(nodal.nodes.count, 0);
     for (std::size_t i = nodal.shared.first_special; i < shared.extent(0); ++i)

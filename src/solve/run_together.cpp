@@ -17,7 +17,7 @@ namespace {
 void launch_whole(Model& model) {
   model.parts = {};
   model.early_shared = 0;
-  model.plain_apart = on_device;
+  model.plain_apart = model.plain_apart || on_device;
 }
 
 /// Steps, graphs or halves of steps that a member takes before the next one's turn.

@@ -198,6 +198,26 @@ TEST_CASE("all but elements may go on beside the second part of the elements, bi
   }
 }
 
+TEST_CASE("plain nodes move the same way beside special ones as in a launch of their own, bit for bit") {
+  scene::Scene scene = moved_blocks();
+  SECTION("in double precision") {}
+  SECTION("in mixed precision") { scene.solver.precision = scene::Precision::mixed; }
+  SECTION("in single precision") {
+    scene = tied_and_open({});
+    scene.solver.precision = scene::Precision::single_precision;
+  }
+  SECTION("with multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
+  Model together = model_in_parts(scene, "1"), apart = model_in_parts(scene, "1");
+  REQUIRE(together.shared.first_special > 0);
+  REQUIRE(together.shared.special.extent(0) > 0);
+  together.plain_apart = false;
+  apart.plain_apart = true;
+  CHECK(make_plan(apart, StepKind::advancing).motion.size() > make_plan(together, StepKind::advancing).motion.size());
+  const End expected = in_order(together), end = in_order(apart);
+  CHECK(end.position == expected.position);
+  CHECK(end.velocity == expected.velocity);
+}
+
 TEST_CASE("elements come in one part where they are not one launch") {
   TiedBlocks blocks;
   blocks.fine = {8, 8, 32};

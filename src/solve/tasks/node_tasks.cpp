@@ -90,7 +90,7 @@ Task plain_shared_task(const NodalState& nodal, const SharedRange& range) {
 std::vector<Task> placed_nodes(const NodalState& nodal, const LoadModel& loads, bool rows_are_due,
                                const SharedRange& range, Stage stage, int lane, Begins begins) {
   const int first_special = std::clamp(nodal.shared.first_special, range.begin, range.end);
-  const bool plain_apart = on_device && (first_special == range.end || nodal.plain_apart);
+  const bool plain_apart = first_special == range.end || nodal.plain_apart;
   const int others = plain_apart ? first_special : range.begin;
   std::vector<Task> tasks;
   const auto add = [&](Task task, int lane_of_part) {

@@ -137,7 +137,7 @@ void reset_to_start(Model& model) {
     Kokkos::deep_copy(pair.arrays.gap, beside_surface);
     reset_contact_law(*pair.contact, pair.law);
     pair.next_check = pair.near_checked_at = pair.uncounted_of = pair.answer_due = -1;
-    pair.asked_motion.last.step = -1;
+    pair.asked_motion.forget();
     pair.boxed = false;
     pair.slaves_at_layout = {};
   }

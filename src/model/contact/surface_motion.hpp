@@ -29,6 +29,12 @@ struct AskedMotion {
   bool under_way = false;
   SurfaceMotion last;  ///< once it has arrived
 
+  /// It was asked of another window or state, also what the device has still to answer.
+  void forget() {
+    last.step = -1;
+    under_way = false;
+  }
+
   /// Whether it was asked for at a step or in the steps before.
   bool is_of(long step, long steps_before) const {
     return last.step >= 0 && last.step <= step && step <= last.step + steps_before;

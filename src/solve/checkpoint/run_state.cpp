@@ -90,10 +90,7 @@ void save_model_state(Model& model, RunState& state) {
 
 void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
-  for (ContactPair& pair : model.contacts) {
-    pair.asked_motion.last.step = -1;
-    pair.asked_motion.under_way = false;
-  }
+  for (ContactPair& pair : model.contacts) pair.asked_motion.forget();
   archive(restorer, model);
   for (ContactPair& pair : model.contacts) pair.uncounted_of = -1;
   keep_choice(model);

@@ -179,7 +179,7 @@ bool renew_window(const ExecutionSpace& space, const NodalState& nodal, ContactP
     build_window_between(space, nodal.nodes, pair, margin);
     motion.moved = 0;
     motion.step = nodal.step;
-    pair.asked_motion.last.step = -1;
+    pair.asked_motion.forget();
     anew = true;
   }
   pair.next_check = nodal.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_checks)));

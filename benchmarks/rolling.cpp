@@ -188,9 +188,9 @@ bool work(const Options& options, Records& records) {
     report_share(records, run_name, elements, timings.run, timings.block, block->elements());
     report_share(records, loop_name, elements, timings.loop, timings.block, block->elements());
   }
-  report_tasks(records, "", elements, loop.task_seconds(std::min(options.steps, 500L)));
-  if (block)
-    report_tasks(records, " of the block", block->elements(), block->loop->task_seconds(std::min(options.steps, 500L)));
+  const long steps_of_tasks = std::min(options.steps, 500L);
+  report_tasks(records, "", elements, loop.task_seconds(steps_of_tasks));
+  if (block) report_tasks(records, " of the block", block->elements(), block->loop->task_seconds(steps_of_tasks));
   const double account = repeat(options.repetitions, [&] { take_sample(begun.model, begun.model.step_size); }).best();
   fmt::print("  {:10.2f} us  energy account and histories of one output\n", 1e6 * account);
   records.add().set("what", "account").set("elements", elements).set("seconds_per_step", account);

@@ -206,31 +206,21 @@ struct NodalForce {
     return partial.rows(shared.place, shared.place[0]);
   }
 
-  /// The same as with_rows(), one row after the other.
-  KOKKOS_INLINE_FUNCTION Vector3 with_places(Vector3 force, const SharedNode& shared) const {
+  /// Sum of a shared node's partial forces and others, N.
+  /// @param first of first_rows(); a host does without
+  KOKKOS_INLINE_FUNCTION Vector3 with_rows(Vector3 force, const SharedNode& shared,
+                                           [[maybe_unused]] const PartialForces::Rows<2>& first) const {
 #ifdef RAILWAVE_SIMD_LANES
     const PartialForce<double> begin{{force[0], force[1], force[2], 0}};
     const PartialForce<double> sum =
         partial.single_precision ? with_all_partials<float>(shared, begin) : with_all_partials<double>(shared, begin);
     return {{sum.x[0], sum.x[1], sum.x[2]}};
 #else
-    each_place(shared, [&](int place) {
-      force = force + partial(place);
-      return true;
-    });
-    return force;
-#endif
-  }
-
-  /// Sum of a shared node's partial forces and others, N.
-  /// @param first of first_rows()
-  KOKKOS_INLINE_FUNCTION Vector3 with_rows(Vector3 force, const SharedNode& shared,
-                                           const PartialForces::Rows<2>& first) const {
-    if constexpr (!on_device) return with_places(force, shared);
     if (shared.more == 0) return first.added_to(force);
     const MorePlaces more = partial.more(shared.more - 1);
     const PartialForces::Rows<MorePlaces::count> others = partial.rows(more.place, shared.place[0]);
     return with_partials(others.added_to(first.added_to(force)), more.first, more.last);
+#endif
   }
 };
 

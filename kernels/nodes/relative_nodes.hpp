@@ -117,7 +117,7 @@ struct RelativePlainUpdate {
     if (i + prefetch_ahead < static_cast<int>(shared.extent(0))) {
       const SharedNode& later = shared(i + prefetch_ahead);
       prefetch(&advance.nodes.node(later.node));
-      force.prefetch_rows(later, force.partial.in<float>());
+      force.prefetch_partials(later);
     }
     const PartialForce<double> sum = force.with_all_partials<float>(node);
     const Vector3 f{{sum.x[0], sum.x[1], sum.x[2]}};

@@ -14,7 +14,7 @@ struct ForcesTogether {
   SetLoads set_loads;
   ContactForce<Friction> contact;
   Block blocks;
-  int set_teams;  ///< 1, or 0 where no load follows from a set
+  int set_teams;  ///< 0 where no load follows from a set
   int contact_teams;
 
   /// Slaves that one team takes at once: few, for it is the longest of them that the team waits for.
@@ -23,7 +23,7 @@ struct ForcesTogether {
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
     const int rank = team.league_rank();
     if (rank < set_teams) {
-      set_loads(team);
+      set_loads.without_rows(team, rank);
     } else if (rank < set_teams + contact_teams) {
       if (team.team_rank() >= slaves_of_team) return;
       const int near_count = contact.window.near_count(0);

@@ -19,20 +19,19 @@ struct ConnectorArrays {
 
 struct ConnectorForce {
   ConnectorArrays connectors;
-  SetMotion sets;
   double elapsed;         ///< s since the last step
   double damping_factor;  ///< 1; 0 while settling, where velocities have no physical meaning
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int c) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const SetMotion& sets, const int c, const SetMotion::Placed& from,
+                                         const SetMotion::Placed& to) const {
     Vector3 relative = -1.0 * row(connectors.rest, c), velocity{{0, 0, 0}};
-    const int from = connectors.set(c, 0), to = connectors.set(c, 1);
-    if (to >= 0) {
+    if (to.set >= 0) {
       relative = relative + sets.mean_position(to);
-      velocity = velocity + sets.mean_velocity(to);
+      velocity = velocity + sets.mean_velocity(to.set);
     }
-    if (from >= 0) {
+    if (from.set >= 0) {
       relative = relative - sets.mean_position(from);
-      velocity = velocity - sets.mean_velocity(from);
+      velocity = velocity - sets.mean_velocity(from.set);
     }
     Vector3 force = row(connectors.preload, c);
     double stored = 0, power = 0;

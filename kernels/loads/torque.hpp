@@ -15,16 +15,15 @@ struct TorqueArrays {
   Array<double* [4]> now;   ///< centre (m), M / sum_K w^K |a x r^K|^2 (N/m)
 };
 
+/// From the sums over its set: what every node's force of a torque has in common.
 struct TorqueNow {
   TorqueArrays torques;
-  SetMotion sets;
   StepValue<double> moment[TorqueArrays::most] = {};  ///< N m
 
-  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    const int set = torques.set(t);
+  KOKKOS_INLINE_FUNCTION void operator()(const SetMotion& sets, int t, const SetMotion::Placed& set) const {
     const Vector3 centre = sets.mean_position(set);
     for (int i = 0; i < 3; ++i) torques.now(t, i) = centre[i];
-    torques.now(t, 3) = moment[t]() / sets.squared_arm(set, row(torques.axis, t));
+    torques.now(t, 3) = moment[t]() / sets.squared_arm(set.set, row(torques.axis, t));
   }
 };
 

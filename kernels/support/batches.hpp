@@ -16,16 +16,16 @@ struct WeightedVector {
   Vector3 vector;
 };
 
+KOKKOS_INLINE_FUNCTION Vector3 added(const WeightedVector& part, const Vector3& sum) {
+  return {{multiply_add(part.weight, part.vector[0], sum[0]), multiply_add(part.weight, part.vector[1], sum[1]),
+           multiply_add(part.weight, part.vector[2], sum[2])}};
+}
+
 template <class Term, int... j>
 KOKKOS_INLINE_FUNCTION Vector3 add_batch(Vector3 sum, int first, int last, const Term& term,
                                          std::integer_sequence<int, j...>) {
-  const auto added = [&](const WeightedVector& part) {
-    return Vector3{{multiply_add(part.weight, part.vector[0], sum[0]),
-                    multiply_add(part.weight, part.vector[1], sum[1]),
-                    multiply_add(part.weight, part.vector[2], sum[2])}};
-  };
   const WeightedVector part[] = {term(first + j < last ? first + j : last - 1)...};
-  ((sum = first + j < last ? added(part[j]) : sum), ...);
+  ((sum = first + j < last ? added(part[j], sum) : sum), ...);
   return sum;
 }
 

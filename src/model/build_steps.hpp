@@ -62,6 +62,8 @@ void build_motion_histories(const Ties& ties, const std::vector<PrescribedSet>& 
 /// external_forces.cpp: rows of the nodes on which other forces than elements' act, and the contributions to each
 void build_external_forces(const Assembly& assembly, const Contributions& contributions,
                            std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
+/// set_teams.cpp: which team sums which sets, and gathers which rows, after the external forces
+void build_set_teams(const std::shared_ptr<BeamModel>& beams, const ExternalForces& external, LoadModel& loads);
 /// prescribed_nodes.cpp: sets of nodes that move as rigid motions say, after the external forces
 void build_prescribed_motions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
                               const Ties& ties, const NodalState& nodal, std::vector<PrescribedSet>& prescribed);

@@ -37,6 +37,7 @@ void build_surroundings(Model& model) {
   build_non_reflecting(model, model.contacts, model.ends);
   const Contributions contributions = build_loads(model, model.beams, model);
   build_external_forces(model.assembly, contributions, model.contacts, model.ties, model.ends, model);
+  build_set_teams(model.beams, model.external, model);
   build_prescribed_motions(model, model.contacts, model.ties, model, model.prescribed);
   refuse_contradictions(model, model.contacts);
   resolve_rolling(model);

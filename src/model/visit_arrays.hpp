@@ -136,13 +136,20 @@ void visit_arrays(const Named<Visitor>& visit, ExternalForces& external) {
 
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, NodeSets& sets) {
-  visit(ArrayUse::constant, "first", sets.first);
   visit(ArrayUse::constant, "nodes", sets.nodes);
   visit(ArrayUse::constant, "weight", sets.weight);
-  visit(ArrayUse::constant, "first_chunk", sets.first_chunk);
+  visit(ArrayUse::constant, "origin", sets.origin);
+  visit(ArrayUse::constant, "summed", sets.summed);
   visit(ArrayUse::constant, "chunks", sets.chunks);
-  visit(ArrayUse::scratch, "partial", sets.partial);
   visit(ArrayUse::scratch, "sums", sets.sums);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, SetTeams& teams) {
+  visit(ArrayUse::constant, "teams", teams.teams);
+  visit(ArrayUse::constant, "laws", teams.laws);
+  visit(ArrayUse::constant, "rows", teams.rows);
+  visit(ArrayUse::constant, "others", teams.others);
 }
 
 template <class Visitor>
@@ -349,6 +356,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   each("load", model.loads);
   visit_arrays(of("connectors_"), model.connectors.arrays);
   visit_arrays(of("torques_"), model.torques);
+  visit_arrays(of("set_teams_"), model.set_teams);
   if (model.beams) visit_arrays(of("beams_"), *model.beams);
   each("prescribed", model.prescribed);
   visit_arrays(of("ends_"), model.ends.arrays);

@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/loads/connector.hpp"
-#include "kernels/loads/torque.hpp"
-#include "kernels/nodes/external_force.hpp"
+#include "kernels/loads/set_loads.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/loads/connector_cells.hpp"
 #include "model/parted_lists.hpp"
@@ -51,12 +49,13 @@ struct MotionHistories {
 /// Loads, connectors, and the node sets that both act on or that histories follow.
 struct LoadModel {
   NodeSets sets;
-  std::vector<int> first_of_set;  ///< host copy of sets.first
+  std::vector<int> first_of_set;  ///< in the lists of `sets`, one more than sets
   std::vector<int> history_sets;  ///< set numbers of those of scene.output.history_sets whose motion is written
   MotionHistories motion_histories;
   std::vector<LoadArrays> loads;
   ConnectorModel connectors;
   TorqueArrays torques;
+  SetTeams set_teams;
 };
 
 /// Nodes of the sets whose motion connectors and torques follow at each step; histories sum theirs block by block.

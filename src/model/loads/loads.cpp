@@ -177,30 +177,23 @@ void build_beam_forces(Collector& collector, const std::vector<LoadArrays>& load
 
 /// @param moving sets that connectors and torques need; histories need the rest
 void build_sets(const Collector& collector, int moving, LoadModel& loads) {
-  std::vector<int> first{0}, first_chunk{0}, nodes;
-  std::vector<SetChunk> chunks;
+  std::vector<int> first{0}, nodes;
   std::vector<double> weight;
   for (std::size_t s = 0; s < collector.sets.size(); ++s) {
     const auto& own = collector.set_weights[s];
-    const int begin = first.back(), end = begin + static_cast<int>(own.size());
     nodes.insert(nodes.end(), collector.sets[s].begin(), collector.sets[s].end());
     weight.insert(weight.end(), own.begin(), own.end());
-    first.push_back(end);
-    if (static_cast<int>(s) >= moving) continue;
-    for (int k = begin; k < end; k += SetChunk::size)
-      chunks.push_back({static_cast<int>(s), k, std::min(k + SetChunk::size, end), 0});
-    first_chunk.push_back(static_cast<int>(chunks.size()));
+    first.push_back(first.back() + static_cast<int>(own.size()));
   }
   NodeSets& sets = loads.sets;
+  std::vector<int> origin;
+  for (int s = 0; s < moving; ++s) origin.push_back(collector.sets[s].front());
   sets.count = static_cast<int>(collector.sets.size());
   sets.moving = moving;
-  sets.first = to_device("first of set", first);
   loads.first_of_set = first;
   sets.nodes = to_device("nodes of set", nodes);
+  sets.origin = to_device("origins of sets", origin);
   sets.weight = to_device("weight in set", weight);
-  sets.first_chunk = to_device("first chunk of set", first_chunk);
-  sets.chunks = to_device("chunks of sets", chunks);
-  sets.partial = Array<double * [NodeSets::values]>("sums of chunks", chunks.size());
   sets.sums = Array<double * [NodeSets::values]>("sums of sets", moving);
 }
 

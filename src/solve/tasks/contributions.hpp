@@ -6,11 +6,6 @@
 
 namespace railwave {
 
-/// Whether the sets of connectors and torques are few enough for one team, which spares launches; and with them the
-/// rows that feel these.
-bool few_sets(const NodeSets& sets);
-bool few_rows(const NodeSets& sets, const ExternalForces& external);
-
 /// Contact's springs go in one launch with the first group's elements: on a device, in advancing steps, and where such
 /// elements take every step. Springs of the linear penalty alone.
 bool contact_goes_along(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
@@ -23,8 +18,7 @@ bool sets_go_along(const NodalState& nodal, const NodeSets& sets);
 RowLoads row_loads(const NodalState& nodal, const LoadModel& loads, double elapsed);
 
 /// Sets of nodes that move as one, connectors and torques.
-/// @param rows how many loaded nodes gather their loads in the same launch
-SetLoads set_loads(const NodalState& nodal, const LoadModel& loads, const Instant& instant, StepKind kind, int rows);
+SetLoads set_loads(const NodalState& nodal, const LoadModel& loads, const Instant& instant, StepKind kind);
 
 /// What a node that begins to touch is judged by.
 /// @param elapsed s since the instant before

@@ -18,7 +18,7 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, Block
                      const ElementLaunch& launch) {
   const ContactPair& pair = *launch.contact;
   using Together = ForcesTogether<Block, Friction>;
-  const int set_teams = launch.sets != nullptr ? 1 : 0;
+  const int set_teams = launch.sets != nullptr ? launch.sets->set_teams.count : 0;
   // Multipliers have a launch of their own. How many nodes can touch is known on the device only; should they be more,
   // teams take several turns.
   const int contact_teams = pair.has_springs()
@@ -26,10 +26,12 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, Block
                                                                    Together::slaves_of_team)
                                 : 0;
   SetLoads sets{};  // CUDA 13.0's compiler crashes on a conditional expression inside the functor's braces
-  if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind, 0);
+  if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind);
   if (launch.listed != nullptr) functor.listed = *launch.listed;
   const int block_teams = launch.listed != nullptr ? static_cast<int>(launch.listed->extent(0)) : blocks.count;
-  launch_teams(set_teams + contact_teams + block_teams, Block::scratch_size(blocks),
+  std::size_t scratch = Block::scratch_size(blocks);
+  if (launch.sets != nullptr) scratch = std::max(scratch, launch.sets->set_teams.scratch_size());
+  launch_teams(set_teams + contact_teams + block_teams, scratch,
                Together{sets, contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}),
                         functor, set_teams, contact_teams},
                instant.space());

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "solve/tasks/beam_forces.hpp"
@@ -20,52 +22,45 @@ void apply_load(const NodalState& nodal, const LoadArrays& load, const Instant& 
   }
 }
 
-constexpr int threads_of_loads = on_device ? 512 : 1;
-using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
+using LoadTeams = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<most_threads_of_sets>, AsArgument>;
 
-/// Sums over sets, and what follows from them.
-void launch_set_loads(const ExecutionSpace& space, const SetLoads& all) {
-  if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(space, 1, threads_of_loads), all);
-  Kokkos::parallel_for("set_chunks", SpreadRange(space, 0, all.chunk_count()), SetChunkSums{all.sets});
-  Kokkos::parallel_for("set_sums", SpreadRange(space, 0, all.sum_count()), SetSums{all.sets});
-  Kokkos::parallel_for("set_laws", SpreadRange(space, 0, all.law_count()), SetLaws{all});
-}
-
-/// Connectors and torques.
-/// @param rows how many are gathered in the same launch
-Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kind, int rows) {
+/// Connectors and torques, and the loads of nodes that feel nothing else.
+Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kind) {
   const bool connectors = loads.connectors.arrays.count > 0, torques = loads.torques.count > 0;
-  return {connectors && torques ? "connectors, torques"
-          : connectors          ? "connectors"
-          : torques             ? "torques"
-                                : "motion of sets",
-          "a", [&nodal, &loads, kind, rows](const Instant& instant) {
-            launch_set_loads(instant.space(), set_loads(nodal, loads, instant, kind, rows));
+  const bool rows = loads.set_teams.rows.extent(0) > 0;
+  return {fmt::format("{}{}",
+                      connectors && torques ? "connectors, torques"
+                      : connectors          ? "connectors"
+                      : torques             ? "torques"
+                                            : "motion of sets",
+                      rows ? ", gather of loads" : ""),
+          "a", [&nodal, &loads, kind](const Instant& instant) {
+            const SetTeams& teams = loads.set_teams;
+            LoadTeams policy(instant.space(), teams.count, teams.threads);
+            policy.set_scratch_size(0, Kokkos::PerTeam(teams.scratch_size()));
+            Kokkos::parallel_for("set_loads", policy, set_loads(nodal, loads, instant, kind));
           }};
 }
 
-Task gather_task(const NodalState& nodal, const LoadModel& loads) {
-  return {nodal.external.contribution_count > 0 ? "gather of loads" : "clearing of loads", "a",
-          [&nodal, &loads](const Instant& instant) {
-            Kokkos::parallel_for("row_loads", SpreadRange(instant.space(), 0, nodal.external.loaded_count),
-                                 row_loads(nodal, loads, instant.elapsed));
-          }};
-}
-
-/// Of connectors, torques and all other loads: one launch where they are few. Sums over many sets come before all else.
+/// Connectors and torques after other loads, then the gather of those rows that more than one team of SetLoads or beams
+/// concern.
 std::vector<Task> gathered_tasks(const NodalState& nodal, const LoadModel& loads, StepKind kind,
                                  std::vector<Task> others) {
-  Task gather = gather_task(nodal, loads);
-  std::vector<Task> tasks;
-  if (loads.sets.moving > 0 && few_rows(loads.sets, nodal.external)) {
-    const std::string name = gather.name;
-    gather = set_load_task(nodal, loads, kind, nodal.external.loaded_count);
-    gather.name += ", " + name;
-  } else if (loads.sets.moving > 0) {
-    tasks.push_back(set_load_task(nodal, loads, kind, 0));
-  }
+  std::vector<Task> tasks = std::move(others);
+  if (loads.sets.moving > 0) tasks.push_back(set_load_task(nodal, loads, kind));
+  const Array<LoadedRow*>& rows = loads.set_teams.others;
+  if (rows.extent(0) == 0) return tasks;
+  const char* const name = nodal.external.contribution_count == 0 ? "clearing of loads"
+                           : loads.set_teams.rows.extent(0) > 0   ? "gather of other loads"
+                                                                  : "gather of loads";
+  Task gather{
+      name, "a", [&nodal, &loads, &rows](const Instant& instant) {
+        const ListedRowLoads all{row_loads(nodal, loads, instant.elapsed), rows, loads.set_teams.others_with_few};
+        SumTeams policy(instant.space(), all.teams(), threads_of_sum);
+        policy.set_scratch_size(0, Kokkos::PerTeam(ListedRowLoads::scratch_size()));
+        Kokkos::parallel_for("row_loads", policy, all);
+      }};
   gather.joins = OwnForceLanes::beams;
-  append(tasks, std::move(others));
   tasks.push_back(std::move(gather));
   return tasks;
 }

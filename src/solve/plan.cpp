@@ -105,17 +105,32 @@ bool in_lanes(const Model& model, StepKind kind, const RowExchange& exchange) {
          model.subcycling.levels == 1 && (!any_late || exchange.share().has_late_blocks());
 }
 
+/// Nodes that ties, multipliers, prescribed motions or ends move, and tied ones.
+class LateNodes {
+ public:
+  explicit LateNodes(const Model& model) : late_(model.nodes.count, 0) {
+    const auto shared = to_host(model.shared.nodes);
+    for (std::size_t i = model.first_late; i < shared.extent(0); ++i) late_[shared(i).node & ~special_bit] = 1;
+    for (const TiedPlace& tied : model.ties.places) late_[tied.slave] = 1;
+  }
+
+  bool any_of(const std::vector<int>& nodes) const {
+    return std::any_of(nodes.begin(), nodes.end(), [this](int n) { return late_[n] != 0; });
+  }
+  bool any_of(const Array<LoadedRow*>& rows) const {
+    const std::vector<LoadedRow> list = to_vector(rows);
+    return std::any_of(list.begin(), list.end(), [this](const LoadedRow& row) { return late_[row.node] != 0; });
+  }
+
+ private:
+  std::vector<char> late_;
+};
+
 /// Whether loads, sets of nodes that move as one, or beams concern late nodes.
 bool loads_concern_late_nodes(const Model& model) {
-  std::vector<char> late(model.nodes.count, 0);
-  const auto shared = to_host(model.shared.nodes);
-  for (std::size_t i = model.first_late; i < shared.extent(0); ++i) late[shared(i).node & ~special_bit] = 1;
-  for (const TiedPlace& tied : model.ties.places) late[tied.slave] = 1;
-  std::vector<std::vector<int>> lists{to_vector(model.external.contribution_node), nodes_of_moving_sets(model)};
-  if (model.beams) lists.push_back(to_vector(model.beams->arrays.node));
-  return std::any_of(lists.begin(), lists.end(), [&](const std::vector<int>& nodes) {
-    return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return late[n] != 0; });
-  });
+  const LateNodes late(model);
+  return late.any_of(to_vector(model.external.contribution_node)) || late.any_of(nodes_of_moving_sets(model)) ||
+         late.any_of(model.set_teams.rows) || (model.beams && late.any_of(to_vector(model.beams->arrays.node)));
 }
 
 /// What lanes wait for as a step begins.
@@ -123,14 +138,20 @@ std::vector<LaneWait> waits_at_begin(const Model& model, StepKind kind, const Ro
   return in_lanes(model, kind, exchange) ? others_wait_in_lanes(loads_concern_late_nodes(model)) : others_wait();
 }
 
-/// Loads and beams in their lanes. What needs both waits for beams; and for the motion of late nodes, which took the
-/// loads of the step before.
-std::vector<Task> loads_in_lanes(std::vector<Task> loads, const RowExchange& exchange) {
+/// Loads and beams in their lanes. What needs both is with beams, so that what moves late nodes does not wait for it;
+/// where it concerns these it is with loads, and waits for the motion before, which took the loads of that step.
+std::vector<Task> loads_in_lanes(const Model& model, std::vector<Task> loads, const RowExchange& exchange) {
+  using Lane = RankLane;
+  const Lane of_both = LateNodes(model).any_of(model.set_teams.others) ? Lane::loads : Lane::beams;
   std::vector<Task> tasks;
   for (Task& task : loads) {
-    if (task.joins == OwnForceLanes::beams)
-      tasks.push_back(exchange.wait_task({{RankLane::loads, RankLane::beams}, {RankLane::loads, RankLane::motion}}));
-    const RankLane lane = task.lane == OwnForceLanes::beams ? RankLane::beams : RankLane::loads;
+    Lane lane = task.lane == OwnForceLanes::beams ? Lane::beams : Lane::loads;
+    if (task.joins == OwnForceLanes::beams) {
+      lane = of_both;
+      tasks.push_back(exchange.wait_task(
+          lane == Lane::beams ? std::vector<LaneWait>{{Lane::beams, Lane::loads}}
+                              : std::vector<LaneWait>{{Lane::loads, Lane::beams}, {Lane::loads, Lane::motion}}));
+    }
     append(tasks, exchange.in_lane(lane, {std::move(task)}));
   }
   return tasks;
@@ -182,7 +203,7 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
   // Loads and contact are small and long in line: blocks leave them room where these come second.
   append(tasks, exchange.in_lane(Lane::contact, std::move(beside.contact)));
   if (exchange.pushes_others()) tasks.push_back(exchange.wait_task({{Lane::messages, Lane::contact}}));
-  append(tasks, loads_in_lanes(std::move(beside.loads), exchange));
+  append(tasks, loads_in_lanes(model, std::move(beside.loads), exchange));
   append(tasks, exchange.in_lane(Lane::late, std::move(late)));
   append(tasks, exchange.in_lane(Lane::outer, std::move(outer)));
   append(tasks, std::move(inner));
@@ -216,7 +237,7 @@ std::vector<Task> rank_motion_tasks(Model& model, StepKind kind, RowExchange& ex
   append(tasks, std::move(beside.after));
   tasks = exchange.in_lane(RankLane::motion, std::move(tasks));
   append(tasks, std::move(nodes.own_plain));
-  tasks.push_back(exchange.wait_task({{RankLane::inner, RankLane::loads}}));
+  tasks.push_back(exchange.wait_task({{RankLane::inner, RankLane::loads}, {RankLane::inner, RankLane::beams}}));
   append(tasks, std::move(nodes.own));
   append(tasks, exchange.in_lane(RankLane::messages, std::move(nodes.between_ranks)));
   tasks.push_back(exchange.end_task());

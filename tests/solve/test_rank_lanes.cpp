@@ -44,6 +44,43 @@ class LanesInName : public DeviceMessages {
   ExecutionSpace space_;
 };
 
+/// The same with memory into which rows are packed.
+class LendsInName : public LanesInName {
+ public:
+  LendsInName(SentBytes& sent, const RankShare& share)
+      : LanesInName(sent),
+        sent_(sent),
+        bytes_(sizeof(PartialForce<double>) * share.sent.extent(0) + sizeof(FixedForce) * share.touched.extent(0)),
+        second_((bytes_ + cache_line - 1) / cache_line * cache_line),
+        came_("came", 2 * (sizeof(PartialForce<double>) * share.received.extent(0))),
+        packed_("packed", 2 * second_),
+        exchanges_("exchanges", 1) {
+    REQUIRE(share.neighbours.size() == 1);
+    lent_.parts.push_back(
+        {packed_.data(), came_.data(), static_cast<long>(second_), static_cast<long>(came_.extent(0) / 2)});
+    lent_.exchanges = exchanges_.data();
+  }
+  const LentMemory* lent() const override { return &lent_; }
+  void exchange(const std::vector<Message>& messages) override {
+    REQUIRE(messages.empty());
+    const auto packed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed_);
+    sent_.add(packed.data() + (done_++ % 2 == 0 ? 0 : second_), bytes_);
+    Kokkos::deep_copy(packed_, static_cast<unsigned char>(0xee));
+    Kokkos::deep_copy(exchanges_, done_);
+  }
+
+ private:
+  SentBytes& sent_;
+  std::size_t bytes_, second_;
+  unsigned long long done_ = 0;
+  Kokkos::View<unsigned char*, ExecutionSpace::memory_space> came_, packed_;
+  Kokkos::View<unsigned long long*, ExecutionSpace::memory_space> exchanges_;
+  LentMemory lent_;
+};
+
+/// How rank 0 exchanges rows.
+enum class Way { by_mpi, in_lanes, into_lent_memory };
+
 /// Rank 1 has the blocks on whose nodes nothing but elements, constraints and contact's springs acts.
 BlockPartition elements_alone_to_another(const Model& model) {
   std::set<int> bound;
@@ -72,13 +109,15 @@ struct Rank0 {
   OneOfTwo transport;
   std::unique_ptr<RowExchange> exchange;
 
-  Rank0(const scene::Scene& scene, bool in_lanes) {
+  Rank0(const scene::Scene& scene, Way way) {
     build_model(scene, model);
     set_initial_motion(model, model.nodes, model.beams);
     const BlockPartition partition = elements_alone_to_another(model);
-    exchange =
-        std::make_unique<RowExchange>(model, take_share(model, partition, lay_out_ranks(model, partition), 0),
-                                      transport, in_lanes ? std::make_unique<LanesInName>(transport.sent) : nullptr);
+    RankShare share = take_share(model, partition, lay_out_ranks(model, partition), 0);
+    std::unique_ptr<DeviceMessages> messages;
+    if (way == Way::in_lanes) messages = std::make_unique<LanesInName>(transport.sent);
+    if (way == Way::into_lent_memory) messages = std::make_unique<LendsInName>(transport.sent, share);
+    exchange = std::make_unique<RowExchange>(model, std::move(share), transport, std::move(messages));
   }
 };
 
@@ -144,9 +183,9 @@ struct Outcome {
   std::uint64_t sent;
 };
 
-Outcome outcome_in_order(const scene::Scene& scene) {
-  Rank0 rank(scene, false);
-  REQUIRE(!rank.exchange->between_devices());
+Outcome outcome_in_order(const scene::Scene& scene, Way way = Way::by_mpi) {
+  Rank0 rank(scene, way);
+  REQUIRE(rank.exchange->between_devices() == (way != Way::by_mpi));
   StepPlans plans(rank.model, rank.exchange.get());
   for (long s = 0; s < steps_in_lanes; ++s) {
     const Instant instant{static_cast<double>(s) * rank.model.step_size, rank.model.step_size,
@@ -162,7 +201,7 @@ Outcome outcome_in_order(const scene::Scene& scene) {
 /// @param without see launches_of()
 bool all_alike(const scene::Scene& scene, const Outcome& expected, const RankLane* without = nullptr) {
   const auto alike = [&](const auto& first) {
-    Rank0 rank(scene, true);
+    Rank0 rank(scene, Way::in_lanes);
     REQUIRE(rank.exchange->between_devices());
     const Plan plan = make_plan(rank.model, StepKind::advancing, rank.exchange.get());
     const End end = run_launches(rank.model, launches_of(plan, rank.model, without), first);
@@ -238,4 +277,14 @@ TEST_CASE("lanes of a rank go on side by side, bit for bit, and wait for what th
     INFO(static_cast<int>(lane));
     CHECK_FALSE(all_alike(scene, expected, &lane));
   }
+}
+
+TEST_CASE("rows are packed into memory that a neighbour lends, as they would be sent") {
+  scene::Scene scene;
+  SECTION("elements and ties") { scene = tied_scene(); }
+  SECTION("contact's forces, too") { scene = in_contact(scene::ContactAlgorithm::penalty); }
+  const Outcome sent = outcome_in_order(scene), packed = outcome_in_order(scene, Way::into_lent_memory);
+  CHECK(packed.end.position == sent.end.position);
+  CHECK(packed.end.velocity == sent.end.velocity);
+  CHECK(packed.sent == sent.sent);
 }

@@ -22,6 +22,8 @@ namespace {
 
 /// Contact costs about as much as so many elements for each slave node: a few of them are near the other surface.
 constexpr double elements_of_slave_node = 1;
+/// On a GPU each of the small launches that rank 0 has besides its elements costs as much as so many of these.
+constexpr double elements_of_small_launch = on_device ? 1.5e4 : 0;
 /// Weights of METIS are whole numbers: of an element that is evaluated at every step.
 constexpr int weight_of_element = 1 << (most_levels - 1);
 
@@ -124,8 +126,17 @@ BlockGraph graph_of(const Model& model) {
   return graph;
 }
 
-double work_of_contact(const Model& model) {
-  double work = 0;
+/// Launches of a step that rank 0 alone has, and of which each waits for others.
+int small_launches(const Model& model) {
+  const auto if_any = [](bool any, int launches) { return any ? launches : 0; };
+  return static_cast<int>(model.contacts.size()) + if_any(model.sets.moving > 0, 1) +
+         if_any(model.set_teams.others.extent(0) > 0, 1) + if_any(model.beams != nullptr, 2) +
+         if_any(model.ties.arrays.active(), 3) + if_any(model.ends.arrays.count > 0, 1);
+}
+
+/// What rank 0 has to do besides its blocks, in elements.
+double further_work(const Model& model) {
+  double work = elements_of_small_launch * small_launches(model);
   for (const ContactPair& pair : model.contacts)
     work += elements_of_slave_node * static_cast<double>(pair.slave_nodes.size());
   return work;
@@ -191,9 +202,9 @@ std::vector<idx_t> parts_of(MetisGraph graph, idx_t parts) {
 #endif
 
 /// Rank of each block. What rank 0 must have counts as part of its share.
-std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks) {
+std::vector<int> deal_out(const BlockGraph& graph, double further, int ranks) {
   std::vector<int> rank(graph.weight.size(), 0), free_blocks;
-  double bound = of_contact, all = of_contact;
+  double bound = further, all = further;
   for (std::size_t b = 0; b < rank.size(); ++b) {
     all += graph.weight[b];
     if (graph.bound[b] != 0)
@@ -253,13 +264,13 @@ double BlockPartition::imbalance() const {
 BlockPartition partition_blocks(const Model& model, int ranks) {
   need_mpi();
   const BlockGraph graph = graph_of(model);
-  const double of_contact = work_of_contact(model);
-  const std::vector<int> rank = deal_out(graph, of_contact, ranks);
+  const double further = further_work(model);
+  const std::vector<int> rank = deal_out(graph, further, ranks);
   BlockPartition partition;
   partition.ranks = ranks;
   partition.work.assign(ranks, 0);
   partition.elements.assign(ranks, 0);
-  partition.work[0] = of_contact;
+  partition.work[0] = further;
   for (std::size_t b = 0; b < rank.size(); ++b) {
     partition.work[rank[b]] += graph.weight[b];
     partition.elements[rank[b]] += graph.elements[b];

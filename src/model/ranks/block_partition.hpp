@@ -17,7 +17,8 @@ namespace railwave {
 struct BlockPartition {
   int ranks = 1;
   std::vector<std::vector<int>> owner;  ///< by group and block
-  std::vector<double> work;             ///< by rank: element evaluations a step, and what contact is worth in these
+  std::vector<double> work;             ///< by rank: element evaluations a step, and what contact and, on GPUs, small
+                                        ///< launches are worth in these
   std::vector<long> elements;           ///< by rank
   long bound_elements = 0;              ///< of the blocks that rank 0 must have
 

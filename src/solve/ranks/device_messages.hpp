@@ -25,10 +25,24 @@ class DeviceMessages {
     std::size_t received_bytes;
   };
 
+  /// Memory into which what is sent is packed, and where what came is found: two buffers of each, which exchanges take
+  /// in turn, the first one the first. Aligned for any row.
+  struct LentMemory {
+    struct Part {
+      unsigned char *sent, *received;
+      long second_sent, second_received;  ///< bytes from the first buffer to the second
+    };
+    std::vector<Part> parts;              ///< in the order of ExchangeLoad
+    const unsigned long long* exchanges;  ///< on the device: so many are over
+  };
+  /// Null: messages come from memory of the rank's own, and go there.
+  virtual const LentMemory* lent() const { return nullptr; }
+
   /// Where launches of several lanes wait for a place on the device, those of the inner one come last.
   virtual const ExecutionSpace& space(RankLane lane) const = 0;
   virtual void wait(const LaneWait& wait) = 0;
   /// They leave when all is done that has been launched in their lane; what is launched there next comes after them.
+  /// @param messages none where memory is lent
   virtual void exchange(const std::vector<Message>& messages) = 0;
 
   /// Launches and messages, recorded with who waits for whom.

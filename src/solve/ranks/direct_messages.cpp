@@ -21,31 +21,6 @@ KOKKOS_INLINE_FUNCTION void fence_of_host() {
   desul::atomic_thread_fence(desul::MemoryOrderAcqRel(), desul::MemoryScopeNode());
 }
 
-/// A piece of memory that is copied in each exchange. Places with two buffers have the second so many words behind.
-struct CopiedPiece {
-  const Word* from;
-  Word* to;
-  long first;  ///< of its words among those of all pieces
-  long from_stride, to_stride;
-};
-
-/// Copies all pieces, by word. Every second exchange takes the second buffers.
-struct CopyPieces {
-  Array<const CopiedPiece*> pieces;
-  Array<const Word*> exchanges;  ///< so many are over
-  Word over;                     ///< when the first was copied
-  bool for_others;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const long i) const {
-    int k = 0;
-    while (k + 1 < static_cast<int>(pieces.extent(0)) && pieces(k + 1).first <= i) ++k;
-    const CopiedPiece& piece = pieces(k);
-    const long second = static_cast<long>((exchanges(0) - over) & 1), word = i - piece.first;
-    piece.to[word + second * piece.to_stride] = piece.from[word + second * piece.from_stride];
-    if (for_others) fence_of_host();
-  }
-};
-
 /// A count in another GPU's memory.
 struct CountThere {
   volatile Word* word;
@@ -136,11 +111,19 @@ std::array<char, 16> number_of_device() {
   return number;
 }
 
-long words_of(std::size_t bytes) { return static_cast<long>(bytes / sizeof(Word)); }
+constexpr int words_of_line = 16;
 
-/// What a rank packs is written into its neighbours' memory by a kernel. A count there says that it has come, for which
-/// one thread waits. A neighbour writes into a buffer again when it has seen the count of the exchange between, before
-/// which this rank has copied what the buffer had: so two buffers do.
+/// Whole cache lines, in words.
+long words_of(std::size_t bytes) {
+  constexpr std::size_t line = words_of_line * sizeof(Word);
+  return static_cast<long>((bytes + line - 1) / line) * words_of_line;
+}
+
+unsigned char* bytes_at(Word* word) { return reinterpret_cast<unsigned char*>(word); }
+
+/// A rank packs into its neighbours' memory. A count there says that all has come, for which one thread waits. A
+/// neighbour packs into a buffer again when it has seen the count of the exchange between, before which this rank has
+/// unpacked what the buffer had: so two buffers do.
 class DirectMessages : public DeviceLanes {
  public:
   DirectMessages(Transport& transport, const ExchangeLoad& load)
@@ -150,15 +133,14 @@ class DirectMessages : public DeviceLanes {
     long first = counts_end(load);
     const std::array<char, 16> device = number_of_device();
     for (std::size_t k = 0; k < load.parts.size(); ++k) {
-      sent.push_back({memory_.handle(), device, first, stride, count_stride * static_cast<long>(k), memory_.open()});
-      ways_.push_back({load.parts[k].other, first, nullptr, 0});
+      sent.push_back({memory_.handle(), device, first, stride, words_of_line * static_cast<long>(k), memory_.open()});
+      lent_.parts.push_back({nullptr, bytes_at(memory_.words() + first), 0, bytes_of(stride)});
       first += words_of(load.parts[k].received);
       transport.start_receive(load.parts[k].other, &received[k], sizeof(Invitation));
     }
     for (std::size_t k = 0; k < load.parts.size(); ++k)
       transport.start_send(load.parts[k].other, &sent[k], sizeof(Invitation));
     transport.finish();
-    stride_ = stride;
     std::vector<CountThere> theirs;
     for (std::size_t k = 0; k < load.parts.size(); ++k) {
       const Invitation& from = received[k];
@@ -166,12 +148,13 @@ class DirectMessages : public DeviceLanes {
       reached_.push_back(std::make_unique<ReachedMemory>(from.memory));
       Word* const words = reached_.back()->words();
       if (words == nullptr) return;
-      ways_[k].there = words + from.first_word;
-      ways_[k].stride_there = from.stride;
+      lent_.parts[k].sent = bytes_at(words + from.first_word);
+      lent_.parts[k].second_sent = bytes_of(from.stride);
       theirs.push_back({words + from.count});
     }
     theirs_ = to_device("counts of neighbours", theirs);
     exchanges_ = Array<Word*>("exchanges", 1);
+    lent_.exchanges = exchanges_.data();
     ready_ = true;
   }
   ~DirectMessages() override {
@@ -184,69 +167,28 @@ class DirectMessages : public DeviceLanes {
   /// Whether the rank reaches all of its neighbours.
   bool ready() const { return ready_; }
 
-  void exchange(const std::vector<Message>& messages_of_step) override {
-    if (sent_.extent(0) + received_.extent(0) == 0) list_pieces(messages_of_step);
-    const ExecutionSpace& space = this->space(RankLane::messages);
-    if (words_sent_ > 0)
-      Kokkos::parallel_for("write_to_neighbours", Words(space, 0, words_sent_), CopyPieces{sent_, exchanges_, 0, true});
-    Kokkos::parallel_for("meet_neighbours", SpreadRange(space, 0, 1),
-                         Meet{theirs_, memory_.words(), count_stride, exchanges_, given_up_.data()});
-    if (words_received_ > 0)
-      Kokkos::parallel_for("take_what_came", Words(space, 0, words_received_),
-                           CopyPieces{received_, exchanges_, 1, false});
+  const LentMemory* lent() const override { return &lent_; }
+
+  void exchange(const std::vector<Message>& /*messages*/) override {
+    Kokkos::parallel_for("meet_neighbours", SpreadRange(space(RankLane::messages), 0, 1),
+                         Meet{theirs_, memory_.words(), words_of_line, exchanges_, given_up_.data()});
   }
 
  private:
-  using Words = Kokkos::RangePolicy<ExecutionSpace, Kokkos::IndexType<long>, AsArgument>;
-  static constexpr int count_stride = 16;  ///< words: a cache line each
-
-  /// To and from a neighbour.
-  struct Way {
-    int other;
-    long here;    ///< word of this GPU's memory
-    Word* there;  ///< of the first buffer
-    long stride_there;
-  };
-
-  static long counts_end(const ExchangeLoad& load) { return count_stride * static_cast<long>(load.parts.size()); }
+  static long bytes_of(long words) { return words * static_cast<long>(sizeof(Word)); }
+  static long counts_end(const ExchangeLoad& load) { return words_of_line * static_cast<long>(load.parts.size()); }
   static long received_words(const ExchangeLoad& load) {
     long words = 0;
     for (const ExchangeLoad::Part& part : load.parts) words += words_of(part.received);
     return words;
   }
 
-  /// They are the same in all exchanges.
-  void list_pieces(const std::vector<Message>& messages_of_step) {
-    std::vector<CopiedPiece> sent, received;
-    for (const Way& way : ways_) {
-      long there = 0, here = way.here;
-      for (const Message& one : messages_of_step) {
-        if (one.other != way.other) continue;
-        if (one.sent_bytes > 0) {
-          sent.push_back({static_cast<const Word*>(one.sent), way.there + there, words_sent_, 0, way.stride_there});
-          there += words_of(one.sent_bytes);
-          words_sent_ += words_of(one.sent_bytes);
-        }
-        if (one.received_bytes > 0) {
-          received.push_back({memory_.words() + here, static_cast<Word*>(one.received), words_received_, stride_, 0});
-          here += words_of(one.received_bytes);
-          words_received_ += words_of(one.received_bytes);
-        }
-      }
-    }
-    sent_ = to_device("pieces sent", sent);
-    received_ = to_device("pieces received", received);
-  }
-
   OpenMemory memory_;
   PinnedArray<int*> given_up_;
-  long stride_ = 0;
-  std::vector<Way> ways_;
+  LentMemory lent_{};
   std::vector<std::unique_ptr<ReachedMemory>> reached_;
   Array<CountThere*> theirs_;
   Array<Word*> exchanges_;
-  Array<CopiedPiece*> sent_, received_;
-  long words_sent_ = 0, words_received_ = 0;
   bool ready_ = false;
 };
 

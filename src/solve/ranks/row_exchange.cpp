@@ -7,6 +7,7 @@
 #include "kernels/support/milestone.hpp"
 #include "kernels/support/packed_rows.hpp"
 #include "kernels/support/team.hpp"
+#include "model/host_copy.hpp"
 #include "solve/launch_graph.hpp"
 #include "solve/ranks/device_messages.hpp"
 
@@ -35,6 +36,19 @@ struct PrecisionBuffers {
       : sent(used ? share.sent.extent(0) : 0, way), received(used ? share.received.extent(0) : 0, way) {}
 };
 
+/// Where packed rows lie, on this GPU or a neighbour's.
+struct RowPlaces {
+  Array<PackedPiece*> rows, contact;
+  const unsigned long long* exchanges = nullptr;
+  unsigned long long over = 0;
+
+  template <class S>
+  PackedPieces<PartialForce<S>> of_rows() const {
+    return {rows, exchanges, over};
+  }
+  PackedPieces<std::uint64_t> of_contact() const { return {contact, exchanges, over}; }
+};
+
 /// So many steps, or graphs of steps, the host launches before the device has come to the first of them: more would
 /// gain nothing, and a rank that does not answer is found out by the wait for its rows.
 constexpr long most_ahead = 2;
@@ -46,9 +60,53 @@ struct RowExchange::Buffers {
   Milestone packed, unpacked;
   ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
   std::unique_ptr<DeviceMessages> on_devices;          ///< null: the host has MPI exchange rows
+  RowPlaces sent, received;
 
-  Buffers(const RankShare& share, RowWay way, bool single)
-      : in_double(share, way, !single), in_single(share, way, single), touched(3 * share.touched.extent(0), way) {}
+  Buffers(const RankShare& share, RowWay way, bool single, std::unique_ptr<DeviceMessages> messages)
+      : in_double(share, way, !single && !lends(messages)),
+        in_single(share, way, single && !lends(messages)),
+        touched(lends(messages) ? 0 : 3 * share.touched.extent(0), way),
+        on_devices(std::move(messages)) {
+    if (lends(on_devices))
+      find_places_in(*on_devices->lent(), share, single);
+    else if (single)
+      find_places_in(in_single);
+    else
+      find_places_in(in_double);
+  }
+
+ private:
+  static bool lends(const std::unique_ptr<DeviceMessages>& messages) { return messages && messages->lent() != nullptr; }
+
+  template <class Row>
+  static Array<PackedPiece*> one_piece(const RowBuffer<Row>& buffer) {
+    return to_device("packed rows",
+                     std::vector<PackedPiece>{{reinterpret_cast<unsigned char*>(buffer.device.data()), 0, 0}});
+  }
+
+  template <class S>
+  void find_places_in(const PrecisionBuffers<S>& rows) {
+    sent = {one_piece(rows.sent), one_piece(touched)};
+    received = {one_piece(rows.received), one_piece(touched)};
+  }
+
+  /// A neighbour's part has rows, then contact forces.
+  void find_places_in(const DeviceMessages::LentMemory& lent, const RankShare& share, bool single) {
+    const long row = single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
+    std::vector<PackedPiece> rows_sent, rows_received, contact;
+    for (std::size_t k = 0; k < lent.parts.size(); ++k) {
+      const RankShare::Neighbour& one = share.neighbours[k];
+      const DeviceMessages::LentMemory::Part& part = lent.parts[k];
+      rows_sent.push_back({part.sent, part.second_sent, one.first_sent});
+      rows_received.push_back({part.received, part.second_received, one.first_received});
+      const bool pushes = share.rank == 0;
+      contact.push_back({pushes ? part.sent + row * one.sent_count : part.received + row * one.received_count,
+                         pushes ? part.second_sent : part.second_received, 3 * one.first_touched});
+    }
+    const Array<PackedPiece*> of_contact = to_device("packed contact forces", contact);
+    sent = {to_device("packed rows", rows_sent), of_contact, lent.exchanges, 0};
+    received = {to_device("packed rows", rows_received), of_contact, lent.exchanges, 1};
+  }
 };
 
 namespace {
@@ -61,6 +119,7 @@ struct ExchangedRows {
   const RankShare& share;
   const PrecisionBuffers<S>& buffers;
   const RowBuffer<std::uint64_t>& touched;
+  const RowPlaces &sent, &received;
 
   bool pushes() const { return share.rank == 0; }
   bool is_pushed() const { return share.rank > 0; }
@@ -71,16 +130,16 @@ template <bool There, class S>
 void copy_rows(const ExecutionSpace& space, const ExchangedRows<S>& rows) {
   const RankShare& share = rows.share;
   const Array<int*>& places = There ? share.sent : share.received;
-  const auto& buffer = There ? rows.buffers.sent : rows.buffers.received;
+  const RowPlaces& packed = There ? rows.sent : rows.received;
   const int partial = static_cast<int>(places.extent(0));
   const int contact = There == rows.pushes() ? static_cast<int>(share.touched.extent(0)) : 0;
-  using Partial = PackedValues<PartialForce<S>, There>;
-  using Contact = PackedRows<std::uint64_t, 3, There>;
+  using Partial = PackedValues<PartialForce<S>, There, PackedPieces<PartialForce<S>>>;
+  using Contact = PackedRows<std::uint64_t, 3, There, PackedPieces<std::uint64_t>>;
   if (partial + contact > 0)
-    Kokkos::parallel_for(
-        There ? "pack_rows" : "unpack_rows", Range(space, 0, partial + contact),
-        OneAfterOther<Partial, Contact>{
-            {rows.partial, places, 1, buffer.device}, {rows.contact, share.touched, rows.touched.device}, partial});
+    Kokkos::parallel_for(There ? "pack_rows" : "unpack_rows", Range(space, 0, partial + contact),
+                         OneAfterOther<Partial, Contact>{{rows.partial, places, 1, packed.template of_rows<S>()},
+                                                         {rows.contact, share.touched, packed.of_contact()},
+                                                         partial});
 }
 
 template <class S>
@@ -202,8 +261,7 @@ RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& tr
   else
     messages = messages_for(way_, transport, load_of(share_, single), way_);
   if (!messages) way_ = way_by_mpi(way_, transport);
-  buffers_ = std::make_unique<Buffers>(share_, way_, single);
-  buffers_->on_devices = std::move(messages);
+  buffers_ = std::make_unique<Buffers>(share_, way_, single, std::move(messages));
 }
 
 RowExchange::~RowExchange() = default;
@@ -215,10 +273,13 @@ void RowExchange::wait_for_rows(long ahead) const {
 template <class Do>
 void RowExchange::with_rows(const Do& act) const {
   const Array<std::uint64_t* [3]>& contact = nodal_.external.sum.contact;
+  const Buffers& all = *buffers_;
   if (nodal_.partial.single_precision)
-    act(ExchangedRows<float>{nodal_.partial.in_single, contact, share_, buffers_->in_single, buffers_->touched});
+    act(ExchangedRows<float>{nodal_.partial.in_single, contact, share_, all.in_single, all.touched, all.sent,
+                             all.received});
   else
-    act(ExchangedRows<double>{nodal_.partial.in_double, contact, share_, buffers_->in_double, buffers_->touched});
+    act(ExchangedRows<double>{nodal_.partial.in_double, contact, share_, all.in_double, all.touched, all.sent,
+                              all.received});
 }
 
 std::vector<Task> RowExchange::in_lane(RankLane lane, std::vector<Task> tasks) const {
@@ -265,7 +326,8 @@ template <class Rows>
 void RowExchange::exchange_on_devices(const Rows& rows) const {
   const ExecutionSpace& space = buffers_->on_devices->space(RankLane::messages);
   pack(space, rows);
-  buffers_->on_devices->exchange(device_messages_of(rows));
+  DeviceMessages& messages = *buffers_->on_devices;
+  messages.exchange(messages.lent() != nullptr ? std::vector<DeviceMessages::Message>{} : device_messages_of(rows));
   unpack(space, rows);
   if (!recording_) buffers_->unpacked.put(space);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/loads/connector.hpp"
 #include "kernels/loads/torque.hpp"
 #include "kernels/nodes/external_force.hpp"
 #include "kernels/support/batches.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/loads/connector.hpp"
 #include "kernels/loads/row_loads.hpp"
 
 namespace railwave {

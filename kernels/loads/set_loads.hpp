@@ -20,9 +20,9 @@ struct alignas(16) SetTeam {
 
 /// Node sets, connectors and torques by teams that wait for no other: sets which a connector joins have the same one.
 struct SetTeams {
-  int count = 0;
-  int threads = 1;         ///< of each, on a GPU
-  int chunks_at_once = 0;  ///< whose sums a team has in scratch memory
+  int count = 0, with_sets = 0;  ///< others than the first so many have rows alone
+  int threads = 1;               ///< of each, on a GPU
+  int chunks_at_once = 0;        ///< whose sums a team has in scratch memory
   Array<SetTeam*> teams;
   Array<SetLaw*> laws;
   Array<LoadedRow*> rows;    ///< whose loads one team knows
@@ -52,11 +52,10 @@ struct SetLoads {
 
   /// On a GPU a team does little but wait for memory: its threads ask for all that needs no sums before they find
   /// these.
-  /// @param t its number among those of `teams`
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void with_rows(const Member& team, int t) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     constexpr int shares_at_once = on_device ? 4 : 1;
-    const SetTeam own = teams.teams(t);
+    const SetTeam own = teams.teams(team.league_rank());
     const int rank = team.team_rank(), size = team.team_size();
     PlacedLaw placed_law;
     if (own.first_law + rank < own.end_law) placed_law = placed(teams.laws(own.first_law + rank));
@@ -72,12 +71,8 @@ struct SetLoads {
     for (int k = own.first_row + rank + size; k < own.end_row; k += size) rows.gather<shares_at_once>(teams.rows(k));
   }
 
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    with_rows(team, team.league_rank());
-  }
-
   /// Sums and laws alone, beside what takes most registers.
+  /// @param t number of a team with sets
   template <class Member>
   KOKKOS_INLINE_FUNCTION void without_rows(const Member& team, int t) const {
     const SetTeam own = teams.teams(t);

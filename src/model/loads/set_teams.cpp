@@ -231,6 +231,7 @@ void build_set_teams(const std::shared_ptr<BeamModel>& beams, const ExternalForc
         std::max(built.chunks_at_once, std::min(teams[t].end_chunk - teams[t].first_chunk, most_chunks_at_once));
   }
   built.count = static_cast<int>(teams.size());
+  built.with_sets = count;
   built.others_with_few = dealt.sort_others(shares, loads.connectors.arrays.count);
   built.teams = to_device("teams of sets", teams);
   built.rows = to_device("rows in order of teams", rows);

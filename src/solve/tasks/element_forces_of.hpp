@@ -18,7 +18,7 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, Block
                      const ElementLaunch& launch) {
   const ContactPair& pair = *launch.contact;
   using Together = ForcesTogether<Block, Friction>;
-  const int set_teams = launch.sets != nullptr ? launch.sets->set_teams.count : 0;
+  const int set_teams = launch.sets != nullptr ? launch.sets->set_teams.with_sets : 0;
   // Multipliers have a launch of their own. How many nodes can touch is known on the device only; should they be more,
   // teams take several turns.
   const int contact_teams = pair.has_springs()

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -6,7 +7,7 @@
 #include "model/beams/beams.hpp"
 #include "solve/plan.hpp"
 #include "tests/verify/beam_scene.hpp"
-#include "tests/verify/two_blocks.hpp"
+#include "tests/verify/tied_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -27,23 +28,22 @@ scene::Connector& add_connector(scene::Scene& scene, const std::string& from, co
 /// A plate above another one, of more nodes than a team has chunks at a time; a bed between, whose cells have nodes in
 /// common; beams from one point to a whole side; a torque and loads of all kinds.
 scene::Scene bedded_plates() {
-  scene::Scene scene = block_scene({0.4, 0.4, 0.02}, {36, 36, 1}, 1e-5);
-  scene.path = "bedded plates";
-  scene.parts[0].name = scene.parts[0].mesh = scene.meshes[0].name = "lower";
-  scene.parts.push_back(scene.parts[0]);
-  scene.meshes.push_back(scene.meshes[0]);
-  scene.parts[1].name = scene.parts[1].mesh = scene.meshes[1].name = "upper";
-  scene.parts[1].position = {0, 0, 0.03};
+  TiedBlocks blocks;
+  blocks.size = {0.4, 0.4, 0.02};
+  blocks.coarse = blocks.fine = {36, 36, 1};
+  blocks.gap = 0.01;
+  scene::Scene scene = blocks.scene(1e-5);
+  scene.ties.clear();
   scene.points = {massless("pole", {0.5, 0.2, 0.04})};
   scene.points[0].mass = 3;
-  scene.beams = {round_beam("pole", "upper.x_max", 0.004, 1)};
-  add_connector(scene, "lower.z_max", "upper.z_min").spread = {7, 5};
-  add_connector(scene, "ground", "lower.z_min");
-  add_connector(scene, "upper.y_min", "pole");
+  scene.beams = {round_beam("pole", "fine.x_max", 0.004, 1)};
+  add_connector(scene, "coarse.z_max", "fine.z_min").spread = {7, 5};
+  add_connector(scene, "ground", "coarse.z_min");
+  add_connector(scene, "fine.y_min", "pole");
   add_connector(scene, "pole", "ground");
-  add_torque(scene, "upper.z_max", 40, {0.2, 0, 1});
-  add_force(scene, "upper.z_max", {3, 4, -1e4});
-  add_pressure(scene, "lower.x_min", 1e5);
+  add_torque(scene, "fine.z_max", 40, {0.2, 0, 1});
+  add_force(scene, "fine.z_max", {3, 4, -1e4});
+  add_pressure(scene, "coarse.x_min", 1e5);
   return scene;
 }
 

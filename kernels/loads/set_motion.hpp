@@ -22,7 +22,7 @@ struct alignas(16) SummedSet {
 struct NodeSets {
   static constexpr int values = 12;
 
-  int count = 0, moving = 0;
+  int moving = 0;
   Array<int*> nodes;
   Array<double*> weight;
   Array<int*> origin;        ///< moving; a set's first node, from which its others are measured

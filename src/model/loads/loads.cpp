@@ -188,7 +188,6 @@ void build_sets(const Collector& collector, int moving, LoadModel& loads) {
   NodeSets& sets = loads.sets;
   std::vector<int> origin;
   for (int s = 0; s < moving; ++s) origin.push_back(collector.sets[s].front());
-  sets.count = static_cast<int>(collector.sets.size());
   sets.moving = moving;
   loads.first_of_set = first;
   sets.nodes = to_device("nodes of set", nodes);
